@@ -62,7 +62,7 @@ void LandmarkConnector::connect(LandmarkGraph& graph, const DrivenPath& driven, 
   const DistanceField space(world.grid, UnknownPolicy::avoid);
   const DiscLattice lattice(space, planned_radius_m());
   // Distances run between cell centres: half a diagonal on either side makes the disc fit.
-  const double clearance_m = roomy_radius_m() + std::numbers::sqrt2 * space.cell_m() / 2;
+  const double clearance_m = radius_with_margin_m() + std::numbers::sqrt2 * space.cell_m() / 2;
   find_approach_poses(graph, {space, lattice, clearance_m}, driven, world.pose.T_map_robot);
   const JoinCandidates candidates(graph, world.grid, lattice);
 
@@ -117,7 +117,7 @@ bool LandmarkConnector::is_current(const Link& link, const Landmark& from, const
                                    const std::vector<Point>& changed_m) const {
   if (link.from != *from.access || link.to != *to.access) return false;
   if (!link.is_planned) return changed_m.empty();
-  const double within_m = kMaxRoomDetour * link.length_m + 2.0 * (roomy_radius_m() + planned_on_->cell_m());
+  const double within_m = kMaxMarginDetour * link.length_m + 2.0 * (radius_with_margin_m() + planned_on_->cell_m());
   return std::ranges::none_of(changed_m, [&](const Point& at) {
     return (at - link.from.position()).norm() + (at - link.to.position()).norm() <= within_m;
   });
@@ -173,8 +173,8 @@ bool LandmarkConnector::store(Round& round, const RouteEnds& pair, const Link& l
   route.to = pair.second;
   route.driven = (!link.path || length_of(stretch) <= config_.driven_detour_ratio * link.length_m) &&
                  is_free(stretch, round.grid, planned_radius_m()) &&
-                 (!link.path || is_free(stretch, round.grid, roomy_radius_m()) ||
-                  !is_free(*link.path, round.grid, roomy_radius_m()));
+                 (!link.path || is_free(stretch, round.grid, radius_with_margin_m()) ||
+                  !is_free(*link.path, round.grid, radius_with_margin_m()));
   if (!route.driven && !link.path) {
     for (const auto& [from, to] : {pair, RouteEnds(pair.second, pair.first)})
       for (const RouteId id : routes_joining(graph, from, to)) graph.remove_route(id);

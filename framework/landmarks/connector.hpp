@@ -30,7 +30,7 @@ namespace cairn {
 class LandmarkConnector {
  public:
   // A plan may be so much longer than the shortest path, to keep room beside the robot.
-  static constexpr double kMaxRoomDetour = 1.2;
+  static constexpr double kMaxMarginDetour = 1.2;
 
   LandmarkConnector(const LandmarksConfig& config, const RobotModel& robot) : config_(config), robot_(robot) {}
 
@@ -69,7 +69,7 @@ class LandmarkConnector {
   // Of the disc that paths are planned for, so that they are free for the robot when rounded.
   [[nodiscard]] double planned_radius_m() const { return robot_.radius_m + kMaxRounding_m; }
   // Where there is room.
-  [[nodiscard]] double roomy_radius_m() const { return planned_radius_m() + config_.access_margin_m; }
+  [[nodiscard]] double radius_with_margin_m() const { return planned_radius_m() + config_.access_margin_m; }
 
   LandmarksConfig config_;
   RobotModel robot_;

@@ -13,9 +13,9 @@ std::string packed_tile(const OccupancyGrid& grid, Cell tile) {
   return deflated({reinterpret_cast<const char*>(copied.ol.data()), copied.ol.size()});
 }
 
-std::size_t bytes_of(const GridMoment& moment) {
+std::size_t bytes_of(const GridDelta& delta) {
   std::size_t bytes = 0;
-  for (const auto& [tile, packed] : moment.packed_ol) bytes += packed.size();
+  for (const auto& [tile, packed] : delta.packed_ol) bytes += packed.size();
   return bytes;
 }
 
@@ -33,32 +33,31 @@ void GridHistory::note(double time_s, const OccupancyGrid& grid, const CellChang
 }
 
 void GridHistory::take(double time_s, const OccupancyGrid& grid) {
-  GridMoment moment{time_s, {}};
-  for (const Cell& tile : changed_) moment.packed_ol.emplace(tile, packed_tile(grid, tile));
+  GridDelta delta{time_s, {}};
+  for (const Cell& tile : changed_) delta.packed_ol.emplace(tile, packed_tile(grid, tile));
   changed_.clear();
-  packed_bytes_ += bytes_of(moment);
-  moments_.push_back(std::move(moment));
+  packed_bytes_ += bytes_of(delta);
+  deltas_.push_back(std::move(delta));
   next_s_ = time_s + every_s_;
-  while (moments_.size() >= kFewMoments && (moments_.size() > kMaxMoments || packed_bytes_ > max_packed_bytes_))
-    halve();
+  while (deltas_.size() >= kMinDeltas && (deltas_.size() > kMaxDeltas || packed_bytes_ > max_packed_bytes_)) halve();
   if (packed_bytes_ <= max_packed_bytes_) return;
   is_given_up_ = true;
-  moments_.clear();
+  deltas_.clear();
   changed_.clear();
 }
 
 // Of two moments the later stays, with what changed at either. Nothing is packed again: a tick must not take long.
 void GridHistory::halve() {
-  std::vector<GridMoment> kept;
+  std::vector<GridDelta> kept;
   packed_bytes_ = 0;
-  for (std::size_t i = 0; i < moments_.size(); i += 2) {
-    const bool is_last = i + 1 == moments_.size();
-    GridMoment& later = moments_[is_last ? i : i + 1];
-    if (!is_last) later.packed_ol.merge(moments_[i].packed_ol);  // which leaves those that are there already
+  for (std::size_t i = 0; i < deltas_.size(); i += 2) {
+    const bool is_last = i + 1 == deltas_.size();
+    GridDelta& later = deltas_[is_last ? i : i + 1];
+    if (!is_last) later.packed_ol.merge(deltas_[i].packed_ol);  // which leaves those that are there already
     packed_bytes_ += bytes_of(later);
     kept.push_back(std::move(later));
   }
-  moments_ = std::move(kept);
+  deltas_ = std::move(kept);
   every_s_ *= 2.0;
 }
 

@@ -90,10 +90,10 @@ std::string RunTrack::json() const {
     track["landmarks"].push_back({{"time_s", track_number(change.time_s)},
                                   {"id", change.id},
                                   {"change", change.is_retired ? "retired" : "found"}});
-  for (const GridMoment& moment : grid_.moments()) {
+  for (const GridDelta& delta : grid_.deltas()) {
     Json tiles = Json::array();
-    for (const auto& [tile, packed] : moment.packed_ol) tiles.push_back({tile.x, tile.y, base64(bytes_in(packed))});
-    track["grid"].push_back({{"time_s", track_number(moment.time_s)}, {"tiles", std::move(tiles)}});
+    for (const auto& [tile, packed] : delta.packed_ol) tiles.push_back({tile.x, tile.y, base64(bytes_in(packed))});
+    track["grid"].push_back({{"time_s", track_number(delta.time_s)}, {"tiles", std::move(tiles)}});
   }
   return track.dump() + "\n";
 }

@@ -9,7 +9,7 @@ namespace {
 
 // Of the cost; from cluster to cluster, a path within it is shortened first.
 double cost_ratio(const SymbolicPath& path, const DetourLimits& limits) {
-  return path.leaves_its_cluster ? std::max(limits.detour_ratio, kMaxShortened_ratio) : limits.detour_ratio;
+  return path.leaves_its_cluster ? std::max(limits.detour_ratio, kMaxShortenedRatio) : limits.detour_ratio;
 }
 
 std::string more_than_text(double ratio, double direct_min_m) {

@@ -13,7 +13,7 @@ struct DetourLimits {
   double direct_min_m = 0.0;     // no direct path is shorter
 };
 // From cluster to cluster, of the cost: a longer one is not worth the work of walking and shortening it.
-inline constexpr double kMaxShortened_ratio = 3.0;
+inline constexpr double kMaxShortenedRatio = 3.0;
 
 enum class Detour {
   none,       // its cost is within detour_ratio

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "framework/contracts/adapters/lone_planners.hpp"
@@ -12,15 +11,12 @@
 #include "planners/hybrid/detour.hpp"
 #include "planners/hybrid/local_ends.hpp"
 #include "planners/hybrid/open_routes.hpp"
+#include "planners/hybrid/query_record.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr int kMaxAccessFailures = 8;
-
-double milliseconds(Budget::Clock::duration time) {
-  return std::chrono::duration<double, std::milli>(time).count();
-}
 
 class LocalQuery {
  public:
@@ -48,12 +44,8 @@ class LocalQuery {
       if (goal.landmark != 0 && goal.landmark == start_.landmark) return {stay(goal), ""};
     std::optional<PlanResult> result = found();
     if (!result) return {std::nullopt, why_none_};
-    result->settled = settled_;
-    result->explanation = explanation_;
-    result->alternatives = alternatives_;
-    report_blocked(blocked_, world_.graph, *result);
-    result->time_ms.graph_ms = graph_ms_;
-    result->time_ms.route_ms = route_ms_;
+    report_blocked(record_.blocked, world_.graph, *result);
+    record_.put_into(*result);
     return {std::move(result), ""};
   }
 
@@ -94,7 +86,7 @@ class LocalQuery {
                                        std::optional<LandmarkId>& unreached) {
     const bool any_length = request_.cost != CostKind::length || !request_.closed.empty();
     for (;;) {
-      const SymbolicAnswer symbolic = search_graph(search);
+      const SymbolicAnswer symbolic = record_.find(search);
       if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
       if (!symbolic.path) {
         why_none_ = "no open path over landmarks joins the ends";
@@ -112,25 +104,17 @@ class LocalQuery {
         return std::nullopt;
       }
       if (walk.blocked) {
-        blocked_.insert(*walk.blocked);
+        record_.blocked.insert(*walk.blocked);
         continue;
       }
       PlanResult result = over_landmarks(answers_, ground_, budget_, start_, goal, *symbolic.path, walk);
-      route_ms_ += milliseconds(Budget::Clock::now() - begin);
+      record_.route_ms += QueryRecord::ms_since(begin);
       if (request_.alternatives > 0)
-        alternatives_ = open_alternatives(search, symbolic.candidates, result.routes, request_.alternatives,
-                                          OpenRoutes(world_.graph, Walker(ground_, legs_, budget_), blocked_), budget_);
+        record_.alternatives =
+            open_alternatives(search, symbolic.candidates, result.routes, request_.alternatives,
+                              OpenRoutes(world_.graph, Walker(ground_, legs_, budget_), record_.blocked), budget_);
       return result;
     }
-  }
-
-  SymbolicAnswer search_graph(const SymbolicSearch& search) {
-    const Budget::Clock::time_point begin = Budget::Clock::now();
-    SymbolicAnswer answer = search.find(blocked_);
-    graph_ms_ += milliseconds(Budget::Clock::now() - begin);
-    settled_ += answer.settled;
-    explanation_ = answer.explanation;
-    return answer;
   }
 
   // None: it is between landmarks that a leg failed.
@@ -145,7 +129,7 @@ class LocalQuery {
     const GoalPlace& goal = goals_[near.index];
     const Budget::Clock::time_point begin = Budget::Clock::now();
     const PlanResult planned = plan_of(ground_.path(direct_request(request_, start_, goal), budget_));
-    route_ms_ += milliseconds(Budget::Clock::now() - begin);
+    record_.route_ms += QueryRecord::ms_since(begin);
     if (budget_.exhausted()) return refused<PlanResult>(stopped(stop_outcome(budget_)));
     if (planned.outcome != PlanOutcome::solved || planned.length_m > at_most_m) return std::nullopt;
     PlanResult result = as_planned(answers_, ground_, start_, goal, planned);
@@ -165,13 +149,8 @@ class LocalQuery {
   LocalEnds ends_;
   StartPlace start_;
   std::vector<GoalPlace> goals_;
-  std::set<RouteId> blocked_;
   std::string why_none_;
-  std::int64_t settled_ = 0;
-  std::vector<RouteAlternative> alternatives_;
-  std::optional<RouteExplanation> explanation_;
-  double graph_ms_ = 0.0;
-  double route_ms_ = 0.0;
+  QueryRecord record_;
 };
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <set>
 
 #include "framework/contracts/adapters/lone_planners.hpp"
 #include "planners/common/any_angle/nearest_goals.hpp"
@@ -12,6 +10,7 @@
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/detour.hpp"
 #include "planners/hybrid/open_routes.hpp"
+#include "planners/hybrid/query_record.hpp"
 #include "planners/hybrid/sketch.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
 
@@ -19,10 +18,6 @@ namespace cairn {
 namespace {
 
 using Time = Budget::Clock::time_point;
-
-double ms_since(Time begin) {
-  return std::chrono::duration<double, std::milli>(Budget::Clock::now() - begin).count();
-}
 
 class WholeQuery {
  public:
@@ -36,12 +31,8 @@ class WholeQuery {
     const auto& start = std::get<StartPlace>(usual);
     if (!request_.avoid.empty()) avoided_grid_ = with_avoided_blocked(world_, request_, *start.space, legs_.disc_m);
     PlanResult result = avoided_grid_ ? answer_avoiding() : answer_from(start, world_);
-    result.settled = settled_;
-    result.alternatives = alternatives_;
-    result.explanation = explanation_;
     report_blocked_of(start, result);
-    result.time_ms.graph_ms = graph_ms_;
-    result.time_ms.route_ms = route_ms_;
+    record_.put_into(result);
     return result;
   }
 
@@ -58,10 +49,10 @@ class WholeQuery {
 
   // A route that only what is avoided blocks is not blocked today.
   void report_blocked_of(const StartPlace& start, PlanResult& result) {
-    if (!avoided_grid_) return report_blocked(blocked_, world_.graph, result);
+    if (!avoided_grid_) return report_blocked(record_.blocked, world_.graph, result);
     const WorldView planned = planned_world(start, world_);
     const WholeGround ground = ground_of(start, planned);
-    for (const RouteId id : blocked_) {
+    for (const RouteId id : record_.blocked) {
       if (Walker(ground, legs_, budget_).walk_alone(*world_.graph.find_route(id)).blocked)
         report_blocked({id}, world_.graph, result);
       else
@@ -107,8 +98,9 @@ class WholeQuery {
     if (over && is_for_time()) over = unless_direct_is_faster(std::move(*over), whole, start, nearest);
     PlanResult result = over ? std::move(*over) : direct(whole, start, goals);
     if (result.outcome == PlanOutcome::solved && request_.alternatives > 0)
-      alternatives_ = open_alternatives(search, candidates_, result.routes, request_.alternatives,
-                                        OpenRoutes(world_.graph, Walker(whole, legs_, budget_), blocked_), budget_);
+      record_.alternatives =
+          open_alternatives(search, candidates_, result.routes, request_.alternatives,
+                            OpenRoutes(world_.graph, Walker(whole, legs_, budget_), record_.blocked), budget_);
     return result;
   }
 
@@ -119,7 +111,8 @@ class WholeQuery {
     // A request for other than short paths accepts longer ones.
     const bool any_length = request_.cost != CostKind::length || !request_.avoid.empty() || !request_.closed.empty();
     for (;;) {
-      const SymbolicAnswer symbolic = search_graph(search);
+      const SymbolicAnswer symbolic = record_.find(search);
+      candidates_ = symbolic.candidates;
       if (symbolic.stopped) return refused<PlanResult>(stopped(*symbolic.stopped));
       if (!symbolic.path) return std::nullopt;
       const Detour detour = any_length ? Detour::none : detour_of(*symbolic.path, limits);
@@ -141,7 +134,7 @@ class WholeQuery {
           return prefer_direct(long_text(shortened_m, limits));
         return result;
       }
-      blocked_.insert(*walk.blocked);
+      record_.blocked.insert(*walk.blocked);
     }
   }
 
@@ -168,22 +161,12 @@ class WholeQuery {
     return std::nullopt;
   }
 
-  SymbolicAnswer search_graph(const SymbolicSearch& search) {
-    const Time begin = Budget::Clock::now();
-    SymbolicAnswer answer = search.find(blocked_);
-    graph_ms_ += ms_since(begin);
-    settled_ += answer.settled;
-    candidates_ = answer.candidates;
-    explanation_ = answer.explanation;
-    return answer;
-  }
-
   std::optional<double> sketch(const PlanningGround& whole, const DiscRoutes& routes, const StartPlace& start,
                                const SymbolicPath& path, const GoalPlace& goal) {
     const Time begin = Budget::Clock::now();
     const auto length_m =
         sketched_length_m(whole, routes, legs_, answers_.shortcut, budget_, start.leave_from, path, goal.pose);
-    route_ms_ += ms_since(begin);
+    record_.route_ms += QueryRecord::ms_since(begin);
     return length_m;
   }
 
@@ -191,7 +174,7 @@ class WholeQuery {
                   const GoalPlace& goal) {
     const Time begin = Budget::Clock::now();
     Walk walk = Walker(whole, legs_, budget_).walk(start.leave_from, path, goal.pose);
-    route_ms_ += ms_since(begin);
+    record_.route_ms += QueryRecord::ms_since(begin);
     return walk;
   }
 
@@ -216,7 +199,7 @@ class WholeQuery {
   PlanResult direct_to(const PlanningGround& whole, const StartPlace& start, const GoalPlace& goal) {
     const Time begin = Budget::Clock::now();
     PlanResult planned = plan_of(whole.path(direct_request(request_, start, goal), budget_));
-    route_ms_ += ms_since(begin);
+    record_.route_ms += QueryRecord::ms_since(begin);
     if (planned.path.empty()) return planned;
     PlanResult result = as_planned(answers_, whole, start, goal, planned);
     if (!result.path.empty()) result.reason = (why_direct_.empty() ? "directly" : why_direct_) + "; " + result.reason;
@@ -231,14 +214,9 @@ class WholeQuery {
   const WorldView& world_;
   const Budget& budget_;
   std::optional<OccupancyGrid> avoided_grid_;
-  std::set<RouteId> blocked_;
   std::vector<RouteAlternative> candidates_;  // of the last search
   std::string why_direct_;
-  std::int64_t settled_ = 0;
-  std::vector<RouteAlternative> alternatives_;
-  std::optional<RouteExplanation> explanation_;
-  double graph_ms_ = 0.0;
-  double route_ms_ = 0.0;
+  QueryRecord record_;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kJoiningSeed = 1;  // 0: the planner itself
-static_assert(kMaxMarginDetour <= LandmarkConnector::kMaxRoomDetour);
+static_assert(kMaxMarginDetour <= LandmarkConnector::kMaxMarginDetour);
 
 ClusterId of_level_with(const ClusterTree& tree, int level, LandmarkId landmark) {
   const auto lowest = tree.cluster_of.find(landmark);

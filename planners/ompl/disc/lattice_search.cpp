@@ -89,9 +89,11 @@ class LatticeSearch {
     bool is_beside_known = false;
   };
   struct Open {
-    double least = 0.0;  // of routes through it
+    double lower_bound = 0.0;  // of the cost of routes through it
     std::size_t at = 0;
-    bool operator<(const Open& other) const { return least != other.least ? least > other.least : at > other.at; }
+    bool operator<(const Open& other) const {
+      return lower_bound != other.lower_bound ? lower_bound > other.lower_bound : at > other.at;
+    }
   };
 
   // First the lattice's nodes, then the known points.
@@ -129,11 +131,11 @@ class LatticeSearch {
   }
 
   void reach(std::size_t at, double cost, std::size_t before) {
-    const double least = cost + cost_.min_per_m() * (to_ - point_of(at)).norm();
-    if (cost >= nodes_[at].cost || least > max_cost_) return;
+    const double lower_bound = cost + cost_.min_per_m() * (to_ - point_of(at)).norm();
+    if (cost >= nodes_[at].cost || lower_bound > max_cost_) return;
     nodes_[at].cost = cost;
     nodes_[at].before = static_cast<std::int32_t>(before);
-    queue_.push({least, at});
+    queue_.push({lower_bound, at});
   }
   // Between a known point and another, or a node beside it.
   void reach_straight(std::size_t from, std::size_t to) {

@@ -21,12 +21,12 @@ Cells cells_of(const OccupancyGrid& grid) {
   return cells;
 }
 
-// As the moments up to this one tell of it.
+// As the deltas up to then tell of it.
 Cells told_at(const GridHistory& history, double time_s) {
   Cells cells;
-  for (const GridMoment& moment : history.moments()) {
-    if (moment.time_s > time_s) break;
-    for (const auto& [tile, packed] : moment.packed_ol) cells[tile] = inflated(packed, GridTile::kCells);
+  for (const GridDelta& delta : history.deltas()) {
+    if (delta.time_s > time_s) break;
+    for (const auto& [tile, packed] : delta.packed_ol) cells[tile] = inflated(packed, GridTile::kCells);
   }
   return cells;
 }
@@ -39,7 +39,7 @@ CellChanges write_anywhere(OccupancyGrid& grid, int within, std::mt19937& random
   return {{{cell.y, cell.x, cell.x + 1}}};
 }
 
-TEST(GridHistory, EachMomentTellsOfTheGridAsItWas) {
+TEST(GridHistory, DeltasAddUpToTheGridAsItWas) {
   std::mt19937 random(7);
   OccupancyGrid grid(0.05);
   grid.set_log_odds({-200, 3}, 400);  // before the run
@@ -49,11 +49,11 @@ TEST(GridHistory, EachMomentTellsOfTheGridAsItWas) {
     const CellChanges changes = write_anywhere(grid, 300, random);
     const double time_s = 0.1 * tick;
     history.note(time_s, grid, &changes);
-    if (!history.moments().empty() && history.moments().back().time_s == time_s) was[time_s] = cells_of(grid);
+    if (!history.deltas().empty() && history.deltas().back().time_s == time_s) was[time_s] = cells_of(grid);
   }
-  EXPECT_LE(history.moments().size(), GridHistory::kMaxMoments);
-  EXPECT_GE(history.moments().size(), GridHistory::kMaxMoments / 2);
-  for (const GridMoment& moment : history.moments()) EXPECT_EQ(told_at(history, moment.time_s), was.at(moment.time_s));
+  EXPECT_LE(history.deltas().size(), GridHistory::kMaxDeltas);
+  EXPECT_GE(history.deltas().size(), GridHistory::kMaxDeltas / 2);
+  for (const GridDelta& delta : history.deltas()) EXPECT_EQ(told_at(history, delta.time_s), was.at(delta.time_s));
 }
 
 TEST(GridHistory, AnotherGridIsToldWhole) {
@@ -66,7 +66,7 @@ TEST(GridHistory, AnotherGridIsToldWhole) {
   history.note(0.0, first, nullptr);
   history.note(5.0, second, nullptr);
   history.note(9.0, second, nullptr);  // nothing new
-  ASSERT_EQ(history.moments().size(), 2U);
+  ASSERT_EQ(history.deltas().size(), 2U);
   EXPECT_EQ(told_at(history, 0.0), cells_of(first));
   EXPECT_EQ(told_at(history, 5.0), cells_of(second));
 }
@@ -81,20 +81,20 @@ TEST(GridHistory, TakesNoMoreMemoryThanItMay) {
     CellChanges changes = write_anywhere(grid, 300, random);
     history.note(1.0 * tick, grid, &changes);
     std::size_t bytes = 0;
-    for (const GridMoment& moment : history.moments())
-      for (const auto& [tile, packed] : moment.packed_ol) bytes += packed.size();
+    for (const GridDelta& delta : history.deltas())
+      for (const auto& [tile, packed] : delta.packed_ol) bytes += packed.size();
     most = std::max(most, bytes);
   }
   EXPECT_LE(most, kMaxBytes);
-  EXPECT_EQ(told_at(history, history.moments().back().time_s).size(), cells_of(grid).size());
+  EXPECT_EQ(told_at(history, history.deltas().back().time_s).size(), cells_of(grid).size());
 
-  // So large a grid that no few moments fit: there is no history, and none begins.
+  // So large a grid that not even a few deltas fit: there is no history, and none begins.
   for (int tick = 0; tick < 200; ++tick) {
     CellChanges changes;
     for (int i = 0; i < 200; ++i) changes.spans.push_back(write_anywhere(grid, 2000, random).spans.front());
     history.note(1000.0 + tick, grid, &changes);
   }
-  EXPECT_TRUE(history.moments().empty());
+  EXPECT_TRUE(history.deltas().empty());
 }
 
 }  // namespace

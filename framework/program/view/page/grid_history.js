@@ -7,15 +7,15 @@ async function inflated(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// moments: what had changed at each, [{time_s, tiles: [[x, y, packed]]}].
+// deltas: what had changed at each time, [{time_s, tiles: [[x, y, packed]]}].
 export class GridHistory {
   #tiles = new Tiles();
   #places = new Map();  // "x,y" -> {x, y, changes: [[time_s, packed]], shown: one of them}
   #wanted_s = null;
   #is_busy = false;
 
-  constructor(moments) {
-    for (const { time_s, tiles } of moments)
+  constructor(deltas) {
+    for (const { time_s, tiles } of deltas)
       for (const [x, y, packed] of tiles) {
         const key = `${x},${y}`;
         if (!this.#places.has(key)) this.#places.set(key, { x, y, changes: [] });
