@@ -8,7 +8,7 @@
 #include "framework/contracts/planner.hpp"
 #include "planners/common/any_angle/disc_routes.hpp"
 #include "planners/common/disc_space/space_cache.hpp"
-#include "planners/hybrid/windows.hpp"
+#include "planners/hybrid/windows/windows.hpp"
 
 namespace cairn {
 

@@ -7,9 +7,9 @@
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/answers.hpp"
 #include "planners/hybrid/legs.hpp"
-#include "planners/hybrid/local_query.hpp"
 #include "planners/hybrid/segments.hpp"
 #include "planners/hybrid/whole_query.hpp"
+#include "planners/hybrid/windows/local_query.hpp"
 
 namespace cairn {
 namespace {

@@ -1,4 +1,4 @@
-#include "planners/hybrid/local_query.hpp"
+#include "planners/hybrid/windows/local_query.hpp"
 
 #include <gmock/gmock.h>
 

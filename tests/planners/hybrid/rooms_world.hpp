@@ -12,7 +12,7 @@
 
 #include "framework/contracts/view/cell_source.hpp"
 #include "planners/common/disc_space/routes.hpp"
-#include "planners/hybrid/local_query.hpp"
+#include "planners/hybrid/windows/local_query.hpp"
 #include "planners/landmark_search/landmark_search.hpp"
 #include "planners/ompl/ompl_planner.hpp"
 

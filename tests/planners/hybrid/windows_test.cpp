@@ -1,4 +1,4 @@
-#include "planners/hybrid/windows.hpp"
+#include "planners/hybrid/windows/windows.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What RunRecording writes, carmen_log gives back to the last bit.
-#include "framework/reporting/recording.hpp"
+#include "framework/reporting/recordings/recording.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "framework/reporting/topics.hpp"
+#include "framework/reporting/recordings/topics.hpp"
 #include "maps/base/base64.hpp"
 #include "maps/exchange/recordings/foxglove_json.hpp"
 #include "maps/exchange/recordings/foxglove_schemas.hpp"

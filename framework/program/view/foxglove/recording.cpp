@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "framework/reporting/topics.hpp"
+#include "framework/reporting/recordings/topics.hpp"
 #include "maps/exchange/recordings/foxglove_json.hpp"
 #include "maps/exchange/recordings/foxglove_schemas.hpp"
 #include "maps/exchange/recordings/mcap_reader.hpp"

@@ -1,4 +1,4 @@
-#include "planners/hybrid/local_query.hpp"
+#include "planners/hybrid/windows/local_query.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/avoided.hpp"
 #include "planners/hybrid/detour.hpp"
-#include "planners/hybrid/local_ends.hpp"
 #include "planners/hybrid/open_routes.hpp"
 #include "planners/hybrid/query_record.hpp"
+#include "planners/hybrid/windows/local_ends.hpp"
 
 namespace cairn {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/reporting/mcap_recording.hpp"
+#include "framework/reporting/recordings/mcap_recording.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "framework/reporting/event_sentences.hpp"
-#include "framework/reporting/recording_errors.hpp"
-#include "framework/reporting/scan_rays.hpp"
-#include "framework/reporting/topics.hpp"
+#include "framework/reporting/recordings/recording_errors.hpp"
+#include "framework/reporting/recordings/scan_rays.hpp"
+#include "framework/reporting/recordings/topics.hpp"
 #include "maps/exchange/recordings/foxglove_json.hpp"
 #include "maps/exchange/recordings/foxglove_schemas.hpp"
 #include "maps/exchange/recordings/ros2_messages.hpp"

@@ -1,4 +1,4 @@
-#include "framework/reporting/scan_rays.hpp"
+#include "framework/reporting/recordings/scan_rays.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "framework/reporting/recording.hpp"
+#include "framework/reporting/recordings/recording.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "framework/reporting/recording_errors.hpp"
-#include "framework/reporting/scan_rays.hpp"
+#include "framework/reporting/recordings/recording_errors.hpp"
+#include "framework/reporting/recordings/scan_rays.hpp"
 #include "maps/base/source_text.hpp"
 
 namespace cairn {

@@ -7,7 +7,7 @@
 
 #include "planners/common/disc_space/ends.hpp"
 #include "planners/hybrid/symbolic_path.hpp"
-#include "planners/hybrid/windows.hpp"
+#include "planners/hybrid/windows/windows.hpp"
 
 namespace cairn {
 

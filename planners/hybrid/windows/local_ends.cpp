@@ -1,4 +1,4 @@
-#include "planners/hybrid/local_ends.hpp"
+#include "planners/hybrid/windows/local_ends.hpp"
 
 #include <algorithm>
 #include <limits>
