@@ -17,6 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kSendEvery(50);
 constexpr std::chrono::milliseconds kTryAgainAfter(50);
 constexpr double kSayZeroFor_s = 0.5;
+constexpr double kConnectAgainAfter_s = 0.5;
 constexpr double kPulseEvery_s = 0.5;
 constexpr double kMissionLivesFor_s = 1.0;
 
@@ -37,7 +38,8 @@ void LiveRules::describe(Fields<LiveRules>& fields) {
   fields.number("order_older_s", &LiveRules::order_older_s, {0.1, 1.0}, "s",
                 "the wheels stand when no new velocity has been ordered for so long");
   fields.number("silent_s", &LiveRules::silent_s, {0.1, 60.0}, "s",
-                "the wheels stand, and it is connected again, when the base has said nothing for so long");
+                "the wheels stand when the base has said nothing for so long; after half a second more it is connected "
+                "again");
   fields.number("reconnect_s", &LiveRules::reconnect_s, {0.0, 3600.0}, "s",
                 "without an observation for so long the mission ends; less than the mission's watchdog_s");
 }
@@ -98,7 +100,7 @@ std::optional<Observation> LiveRobot::wait_for_observation(const Budget& budget)
   if (!seen.empty()) heard_s_ = now_s();
   if (!is_there)
     disconnect("it is gone");
-  else if (now_s() - heard_s_ > rules_.silent_s)
+  else if (now_s() - heard_s_ > rules_.silent_s + kConnectAgainAfter_s)
     disconnect("it says nothing");
   if (seen.empty()) return std::nullopt;
   if (is_there) disconnect_reason_.clear();

@@ -25,7 +25,7 @@ namespace cairn::live {
 
 struct LiveRules {
   double order_older_s = 0.3;
-  double silent_s = 0.5;
+  double silent_s = 0.3;
   double reconnect_s = 10.0;
 
   static void describe(Fields<LiveRules>& fields);

@@ -155,16 +155,21 @@ void add_robot(KeyText& key, const RobotModel& robot) {
           dropped, crosstalk);
 }
 
+// 0 when it cannot be read.
+std::uint64_t hash_of_code(const std::filesystem::path& file) {
+  return hash_of_file(file).value_or(FileHash{}).hash;
+}
+
 // The code of a module, and of the library that holds this function or that of a contour.
 void add_module(KeyText& key, const ModuleLibrary& library, const PluginChoice& choice) {
   const ModuleEntry* entry = library.find_any(choice.name);
   const bool has_file = entry != nullptr && entry->plugin != nullptr;
-  key.add(choice.name, has_file ? hash_of(bytes_of(entry->plugin->file)) : 0).add_config(choice.config);
+  key.add(choice.name, has_file ? hash_of_code(entry->plugin->file) : 0).add_config(choice.config);
 }
 
 void add_library_of(KeyText& key, const void* address) {
   Dl_info info{};
-  if (::dladdr(address, &info) != 0) key.add(hash_of(bytes_of(info.dli_fname)));
+  if (::dladdr(address, &info) != 0) key.add(hash_of_code(info.dli_fname));
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/live/base_link.hpp"
 #include "framework/live/descriptor.hpp"
+#include "framework/live/guard_process.hpp"
 #include "plugins/p2os_robot/config.hpp"
 #include "plugins/p2os_robot/counted_odometry.hpp"
 #include "plugins/p2os_robot/packet.hpp"
 #include "plugins/p2os_robot/units.hpp"
-#include "plugins/p2os_robot/wheel_guard.hpp"
 
 namespace cairn::p2os_robot {
 
@@ -54,7 +54,7 @@ class Microcontroller final : public live::BaseLink {
   // One descriptor for life, so that send_stop() never writes to another file: while not connected it is `nowhere_`.
   Descriptor nowhere_;
   Descriptor line_;
-  std::unique_ptr<WheelGuard> guard_;
+  std::unique_ptr<live::GuardProcess> guard_;
   std::mutex guarding_;
   PacketReader reader_;
   Units units_;

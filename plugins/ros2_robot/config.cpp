@@ -82,6 +82,8 @@ void Config::describe(Fields<Config>& fields) {
   fields.text("goal", &Config::goal,
               "geometry_msgs/PoseStamped, as /goal_pose: orders for a mission that awaits them; empty: none");
   fields.group("initial_pose", &Config::initial_pose, "a start that people give");
+  fields.number("guard_s", &Config::guard_s, {0.1, 2.0}, "s",
+                "a process of its own stops the wheels when this one gives no sign of life for so long");
   fields.group("stop_when", &Config::stop_when, "when the wheels stop by themselves");
 }
 

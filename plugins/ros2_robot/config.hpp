@@ -82,6 +82,7 @@ struct Config {
   ShownTopics show;
   std::string goal;  // empty: none
   InitialPoseTopic initial_pose;
+  double guard_s = 0.3;
   live::LiveRules stop_when;
 
   static void describe(Fields<Config>& fields);

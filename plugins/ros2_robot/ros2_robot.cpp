@@ -4,8 +4,9 @@
 
 namespace cairn::ros2_robot {
 
-std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot, const Budget& budget) {
-  return std::make_unique<RosLink>(config, robot, budget);
+std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot, const Budget& budget,
+                                        const std::filesystem::path& guard) {
+  return std::make_unique<RosLink>(config, robot, budget, guard);
 }
 
 }  // namespace cairn::ros2_robot

@@ -1,6 +1,7 @@
 // A robot on a ROS 2 network, without ROS on this computer (docs/your-robot.md). Plugin `ros2_robot`, kind sensor.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "framework/contracts/robot_model.hpp"
@@ -9,8 +10,10 @@
 
 namespace cairn::ros2_robot {
 
-// Throws std::invalid_argument with a setting that cannot be. The budget is of waiting for a pose to begin at.
+// Throws std::invalid_argument with a setting that cannot be. The budget is of waiting for a pose to begin at; guard is
+// the program that stops the wheels when this process cannot (guard.hpp); empty: none does.
 [[nodiscard]] std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot,
-                                                      const Budget& budget = {});
+                                                      const Budget& budget = {},
+                                                      const std::filesystem::path& guard = {});
 
 }  // namespace cairn::ros2_robot

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <thread>
 
 #include "framework/live/steady_time.hpp"
 #include "maps/base/spelling.hpp"
+#include "plugins/ros2_robot/guard.hpp"
 #include "plugins/ros2_robot/settings_check.hpp"
 
 namespace cairn::ros2_robot {
@@ -19,20 +21,20 @@ namespace {
 constexpr double kFindWithin_s = 2.0;
 constexpr std::chrono::milliseconds kLookEvery(5);
 constexpr std::chrono::milliseconds kReceiveWithin(20);
-constexpr double kLookWhoListensEvery_s = 0.5;
 constexpr double kTwoPublishersWithin_s = 1.0;
 constexpr std::size_t kMaxListed = 8;
 
-double wall_clock_s() {
-  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+NetworkChoice network_of(const Config& config) {
+  return {config.domain, config.network == Network::localhost, config.interface, config.peers};
 }
 
 }  // namespace
 
-RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& budget)
+RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard)
     : config_(config),
       robot_(robot),
       budget_(budget),
+      guard_program_(std::move(guard)),
       ranges_(config_, robot_),
       places_(config),
       continuity_(robot_),
@@ -65,9 +67,10 @@ std::optional<Pose2> RosLink::start() {
 
 bool RosLink::connect(const Budget& budget, std::string& why) {
   if (!participant_) make_endpoints();
+  make_guard();
   const double until_s = live::now_s() + kFindWithin_s;
   do {
-    choose_command_type();
+    velocity_->look_who_listens(live::now_s());
     dds_subscription_matched_status_t matched{};
     (void)dds_get_subscription_matched_status(odometry_.get(), &matched);
     if (matched.current_count > 0) {
@@ -86,8 +89,7 @@ void RosLink::disconnect() {
 }
 
 void RosLink::make_endpoints() {
-  participant_.emplace(
-      NetworkChoice{config_.domain, config_.network == Network::localhost, config_.interface, config_.peers});
+  participant_.emplace(network_of(config_));
   odometry_ = participant_->reader(config_.odometry, nav_msgs_msg_dds__Odometry__desc);
   ranges_.open(*participant_);
   const CompassTopic& compass = config_.compass;
@@ -104,20 +106,14 @@ void RosLink::make_endpoints() {
     battery_ = participant_->reader(config_.battery, sensor_msgs_msg_dds__BatteryState__desc);
   if (!config_.emergency.empty()) emergency_ = participant_->reader(config_.emergency, std_msgs_msg_dds__Bool__desc);
   display_.open(*participant_);
-  const CommandTopic& command = config_.command;
-  if (command.kind != CommandKind::twist_stamped)
-    twist_ = participant_->writer(command.topic, geometry_msgs_msg_dds__Twist__desc);
-  if (command.kind != CommandKind::twist)
-    twist_stamped_ = participant_->writer(command.topic, geometry_msgs_msg_dds__TwistStamped__desc);
+  velocity_.emplace(*participant_, config_.command);
 }
 
-// By who listens: both where both do.
-void RosLink::choose_command_type() {
-  const double now_s = live::now_s();
-  if (now_s - looked_s_ < kLookWhoListensEvery_s) return;
-  looked_s_ = now_s;
-  sends_twist_ = is_read(twist_);
-  sends_stamped_ = is_read(twist_stamped_);
+void RosLink::make_guard() {
+  if (guard_program_.empty() || (guard_ && guard_->is_there())) return;
+  const std::scoped_lock lock(guarding_);
+  const std::chrono::milliseconds silence(std::lround(1e3 * config_.guard_s));
+  guard_ = guard_of({network_of(config_), config_.command, silence}, guard_program_);
 }
 
 std::string RosLink::nobody_there() const {
@@ -142,7 +138,8 @@ std::string RosLink::nobody_there() const {
 }
 
 bool RosLink::receive(std::vector<Observation>& seen) {
-  choose_command_type();
+  if (guard_ && !guard_->is_there()) return false;
+  velocity_->look_who_listens(live::now_s());
   const auto until = std::chrono::steady_clock::now() + kReceiveWithin;
   do {
     if (static_frames_)
@@ -189,11 +186,6 @@ void RosLink::check_publisher(dds_instance_handle_t publisher, double now_s) {
   publisher_changed_s_ = now_s;
 }
 
-double RosLink::base_time_s() const {
-  const double ahead_s = base_ahead_s_;
-  return ahead_s == 0.0 ? wall_clock_s() : live::now_s() + ahead_s;
-}
-
 // Each reading as seen from where the robot is now.
 void RosLink::observe(const Odometry& odometry, double arrived_s, std::vector<Observation>& seen) {
   const std::optional<Pose2> pose = pose_of(odometry);
@@ -212,14 +204,12 @@ void RosLink::observe(const Odometry& odometry, double arrived_s, std::vector<Ob
 }
 
 void RosLink::send(const Twist& wanted) noexcept {
-  const Twist twist = is_emergency_ ? Twist{} : wanted;
-  TwistMessage message{{twist.v_mps, 0.0, 0.0}, {0.0, 0.0, twist.w_radps}};
-  if (sends_twist_) (void)dds_write(twist_.get(), &message);
-  if (!sends_stamped_) return;
-  std::array<char, 256> frame{};
-  config_.command.frame.copy(frame.data(), frame.size() - 1);
-  const TwistStamped stamped{{time_of(base_time_s()), frame.data()}, message};
-  (void)dds_write(twist_stamped_.get(), &stamped);
+  velocity_->send(is_emergency_ ? Twist{} : wanted, base_ahead_s_);
+}
+
+void RosLink::beat() noexcept {
+  const std::unique_lock lock(guarding_, std::try_to_lock);
+  if (lock.owns_lock() && guard_) guard_->beat(base_ahead_s_);
 }
 
 }  // namespace cairn::ros2_robot

@@ -3,6 +3,9 @@
 
 #include <array>
 #include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +13,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/live/base_link.hpp"
 #include "framework/live/continuity.hpp"
+#include "framework/live/guard_process.hpp"
 #include "plugins/ros2_robot/config.hpp"
 #include "plugins/ros2_robot/display_topics.hpp"
 #include "plugins/ros2_robot/endpoints.hpp"
@@ -17,13 +21,15 @@
 #include "plugins/ros2_robot/pose_history.hpp"
 #include "plugins/ros2_robot/range_topics.hpp"
 #include "plugins/ros2_robot/sensor_places.hpp"
+#include "plugins/ros2_robot/velocity_topic.hpp"
 
 namespace cairn::ros2_robot {
 
 class RosLink final : public live::BaseLink {
  public:
-  // Throws std::invalid_argument with a setting that cannot be. The budget is of start().
-  RosLink(const Config& config, const RobotModel& robot, const Budget& budget);
+  // Throws std::invalid_argument with a setting that cannot be. The budget is of start(). guard: the program that
+  // guards the wheels (guard.cpp); empty: none does.
+  RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard);
 
   [[nodiscard]] std::string name() const override;
   // Until the odometry comes, two seconds at most.
@@ -35,8 +41,9 @@ class RosLink final : public live::BaseLink {
   [[nodiscard]] MissionDisplay* display() override { return &display_; }
   void send(const Twist& twist) noexcept override;
   void send_pulse() noexcept override {}
-  // DDS cannot be asked from a signal handler: the thread that sends does so within 50 ms. A process that is killed
-  // sends nothing: the base's own time-out counts.
+  void beat() noexcept override;
+  // DDS cannot be asked from a signal handler: the thread that sends does so within 50 ms; the guard, when this process
+  // is killed or halted.
   bool send_stop() noexcept override { return false; }
 
  private:
@@ -44,16 +51,15 @@ class RosLink final : public live::BaseLink {
   void take_others();
   void take_odometry(std::vector<Observation>& seen);
   void observe(const Odometry& odometry, double arrived_s, std::vector<Observation>& seen);
-  void choose_command_type();
+  // Makes one when there is none any more.
+  void make_guard();
   [[nodiscard]] std::string nobody_there() const;
   // Throws std::runtime_error when two send the odometry by turns.
   void check_publisher(dds_instance_handle_t publisher, double now_s);
-  // As the base's clock has it: a base may refuse velocities with other stamps.
-  [[nodiscard]] double base_time_s() const;
-
   Config config_;
   RobotModel robot_;
   Budget budget_;
+  std::filesystem::path guard_program_;
   std::optional<Participant> participant_;
   Entity odometry_;
   Entity compass_;
@@ -62,16 +68,14 @@ class RosLink final : public live::BaseLink {
   std::vector<Entity> bumpers_;
   Entity emergency_;
   RangeTopics ranges_;
-  Entity twist_;
-  Entity twist_stamped_;
-  std::atomic<bool> sends_twist_{false};
-  std::atomic<bool> sends_stamped_{false};
+  std::optional<VelocityTopic> velocity_;
+  std::unique_ptr<live::GuardProcess> guard_;
+  std::mutex guarding_;
   std::atomic<bool> is_emergency_{false};
   std::atomic<double> base_ahead_s_{0.0};  // of the base's clock to this computer's steady one; 0: not known
   dds_instance_handle_t publisher_ = 0;    // of the odometry
   dds_instance_handle_t publisher_before_ = 0;
   double publisher_changed_s_ = 0.0;
-  double looked_s_ = 0.0;  // when it last looked who listens
   std::optional<double> compass_rad_;
   std::optional<double> battery_ratio_;
   std::vector<char> bumped_;  // each bumper's last word

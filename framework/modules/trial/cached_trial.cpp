@@ -1,6 +1,7 @@
 #include "framework/modules/trial/cached_trial.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -21,14 +22,14 @@ namespace {
 
 constexpr std::string_view kMagic = "cairn module trial 1\n";
 
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30U;  // of a module file that is remembered
+constexpr std::uintmax_t kMaxEntryBytes = std::uintmax_t{1} << 20U;
 
 // Empty when it is not a plain file, too large, or cannot be read.
 std::string bytes_of(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return "";
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size > kMaxBytes) return "";
+  if (error || size > kMaxEntryBytes) return "";
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
   return in.read(bytes.data(), static_cast<std::streamsize>(size)) ? bytes : "";
@@ -52,8 +53,8 @@ struct CacheEntry {
   std::filesystem::path file;
 };
 
-CacheEntry entry_of(const std::string& bytes, const std::filesystem::path& folder) {
-  const std::string key = this_build() + " " + std::to_string(bytes.size()) + " " + fingerprint_of(bytes) + "\n";
+CacheEntry entry_of(const FileHash& module, const std::filesystem::path& folder) {
+  const std::string key = fmt::format("{} {} {:016x}\n", this_build(), module.size, module.hash);
   return {key, folder / (fingerprint_of(key) + ".module")};
 }
 
@@ -81,9 +82,9 @@ std::chrono::milliseconds trial_limit() {
 }  // namespace
 
 TrialOutcome CachedTrial::outcome_of(const std::filesystem::path& file) const {
-  const std::string bytes = folder_.empty() ? "" : bytes_of(file);
-  if (bytes.empty()) return trial_->outcome_of(file);
-  std::optional<TrialOutcome> known = read_entry(entry_of(bytes, folder_));
+  const std::optional<FileHash> content = folder_.empty() ? std::nullopt : hash_of_file(file);
+  if (!content) return trial_->outcome_of(file);
+  std::optional<TrialOutcome> known = read_entry(entry_of(*content, folder_));
   if (!known) return try_again(file);
   known->is_remembered = true;
   if (!known->fault.empty()) known->fault += " (in an earlier trial; `cairn plugins check` tries again)";
@@ -91,10 +92,10 @@ TrialOutcome CachedTrial::outcome_of(const std::filesystem::path& file) const {
 }
 
 TrialOutcome CachedTrial::try_again(const std::filesystem::path& file) const {
-  const std::string bytes = folder_.empty() ? "" : bytes_of(file);
+  const std::optional<FileHash> content = folder_.empty() ? std::nullopt : hash_of_file(file);
   TrialOutcome outcome = trial_->try_again(file);
-  if (bytes.empty()) return outcome;
-  const CacheEntry entry = entry_of(bytes, folder_);
+  if (!content) return outcome;
+  const CacheEntry entry = entry_of(*content, folder_);
   std::error_code error;
   if (outcome.fault.empty() || outcome.is_fatal)
     keep_in_cache(entry.file, entry_text(entry, outcome));

@@ -4,9 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
+#include <iostream>
 #include <thread>
 
 #include "framework/live/live_robot.hpp"
@@ -48,15 +51,17 @@ class RosBase {
     const Bool message{is_on};
     (void)dds_write(emergency_.get(), &message);
   }
-  [[nodiscard]] bool stands_within(double within_s) const {
+  [[nodiscard]] bool stands_within(double within_s) const { return wait_for_wheels(false, within_s); }
+  [[nodiscard]] bool drives_within(double within_s) const { return wait_for_wheels(true, within_s); }
+
+ private:
+  [[nodiscard]] bool wait_for_wheels(bool turning, double within_s) const {
     for (const double begin_s = live::now_s(); live::now_s() - begin_s < within_s;) {
-      if (v_mps == 0.0) return true;
+      if ((v_mps != 0.0) == turning) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return false;
   }
-
- private:
   void run(const std::stop_token& ended) {
     int tick = 0;
     while (!ended.stop_requested()) {
@@ -156,7 +161,7 @@ TEST(Ros2Robot, StandsWhenNobodyOrdersOrTheBaseIsSilentOrInAnEmergency) {
   ASSERT_GT(base.v_mps, 0.0);
   base.is_silent = true;
   std::thread again([&base] {
-    EXPECT_TRUE(base.stands_within(0.8)) << "silent";
+    EXPECT_TRUE(base.stands_within(0.5)) << "silent";
     base.is_silent = false;
   });
   EXPECT_EQ(driven->next({}).state, SensorState::observation);
@@ -170,6 +175,43 @@ TEST(Ros2Robot, StandsWhenItIsDestroyed) {
   ASSERT_GT(base.v_mps, 0.0);
   driven.reset();
   EXPECT_TRUE(base.stands_within(0.3));
+}
+
+// Of a robot without a time-out of its own.
+TEST(Ros2Robot, StandsWhenItsProcessIsKilledOrHaltedAndGoesOnAfterwards) {
+  for (const bool stamped : {false, true}) {
+    const RosBase base(stamped);
+    for (const int signal : {SIGKILL, SIGSTOP}) {
+      const std::string domain = std::to_string(own_domain());
+      const pid_t process = ::fork();
+      if (process == 0) {
+        ::execl(CAIRN_ROS2_DRIVER, CAIRN_ROS2_DRIVER, domain.c_str(), CAIRN_ROS2_GUARD, nullptr);
+        ::_exit(127);
+      }
+      ASSERT_TRUE(base.drives_within(20.0)) << signal;
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+      const double begin_s = live::now_s();
+      ::kill(process, signal);
+      EXPECT_TRUE(base.stands_within(0.5)) << signal;
+      std::cout << (signal == SIGKILL ? "SIGKILL" : "SIGSTOP") << ": the order to stand comes after "
+                << live::now_s() - begin_s << " s\n";
+      ::kill(process, SIGCONT);
+      if (signal == SIGSTOP) EXPECT_TRUE(base.drives_within(1.0));
+      ::kill(process, SIGKILL);
+      ::waitpid(process, nullptr, 0);
+      EXPECT_TRUE(base.stands_within(0.5)) << signal;
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      EXPECT_EQ(base.v_mps, 0.0) << signal;
+    }
+  }
+}
+
+TEST(Ros2Robot, WithoutItsGuardItDoesNotDrive) {
+  const RosBase base;
+  live::LiveRobot driven(link_to(config(), robot(), {}, "/nowhere/ros2_guard"), config().stop_when, robot());
+  const SensorStep step = driven.next({});
+  EXPECT_EQ(step.state, SensorState::fault);
+  EXPECT_THAT(step.reason, HasSubstr("/nowhere/ros2_guard, which guards the wheels, is no program"));
 }
 
 TEST(Ros2Robot, GoesOnWhenTheBasesClockIsSet) {

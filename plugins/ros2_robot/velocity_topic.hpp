@@ -1,0 +1,32 @@
+// Where velocities are sent to.
+#pragma once
+
+#include <atomic>
+
+#include "maps/geometry/pose.hpp"
+#include "plugins/ros2_robot/config.hpp"
+#include "plugins/ros2_robot/endpoints.hpp"
+
+namespace cairn::ros2_robot {
+
+class VelocityTopic {
+ public:
+  // Throws std::runtime_error.
+  VelocityTopic(const Participant& participant, const CommandTopic& topic);
+
+  // Velocities are of the type that who listens wants: of both where both are. At most twice a second.
+  void look_who_listens(double now_s);
+  // Beside look_who_listens(), by another thread. base_ahead_s: of the base's clock to this computer's steady one,
+  // since a base may refuse velocities with other stamps; 0: not known.
+  void send(const Twist& twist, double base_ahead_s) noexcept;
+
+ private:
+  std::string frame_;
+  Entity twist_;
+  Entity twist_stamped_;
+  double looked_s_ = 0.0;
+  std::atomic<bool> sends_twist_{false};
+  std::atomic<bool> sends_stamped_{false};
+};
+
+}  // namespace cairn::ros2_robot
