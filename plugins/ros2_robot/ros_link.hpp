@@ -1,7 +1,6 @@
 // A robot on a ROS 2 network.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <memory>

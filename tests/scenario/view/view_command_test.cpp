@@ -209,5 +209,32 @@ TEST_F(ViewOfARun, OutlivesTheRunWhenItIsOnItsOwn) {
   EXPECT_EQ(view.exit_status(), 0);
 }
 
+TEST_F(ViewOfARun, MakesNoDifferenceToTheMissionWhenItIsKilled) {
+  const auto arguments = [&](const std::string& out) {
+    return std::vector<std::string>{"run",    (folder_ / "mission.yaml").string(),
+                                    "--set",  "steps=[explore: {at_most_s: 40}]",
+                                    "--out",  (folder_ / out).string(),
+                                    "--pace", "10"};
+  };
+  (void)run_cairn(arguments("alone"));
+  Conversation run(arguments("out"));
+  for (int i = 0; i < 2000 && !fs::exists(out_ / "control.sock"); ++i) ::usleep(5000);
+  Conversation view({"view", out_.string()});
+  read_address(view);
+  const std::string stream = ask("GET /live",
+                                 "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                                 "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n"
+                                 "Sec-WebSocket-Protocol: cairn.view.1, token." +
+                                     token_ + "\r\n",
+                                 "", 3000);
+  EXPECT_TRUE(stream.starts_with("HTTP/1.1 101")) << stream;
+  ASSERT_TRUE(fs::exists(out_ / "control.sock")) << "the mission has ended before";
+  view.send(SIGKILL);
+  (void)view.exit_status();
+  (void)run.exit_status();
+  for (const char* file : {"held.cairn", "track.json"})
+    EXPECT_EQ(text_of_file(out_ / file), text_of_file(folder_ / "alone" / file)) << file;
+}
+
 }  // namespace
 }  // namespace cairn::testing_program
