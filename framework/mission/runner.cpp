@@ -94,6 +94,10 @@ const LandmarkGraph& MissionRunner::graph() const {
 const std::vector<Pose2>& MissionRunner::driven_path() const {
   return loop_->tracker().driven_path();
 }
+ClusterTree MissionRunner::clusters() const {
+  return loop_->clusters();
+}
+
 std::vector<StageTime> MissionRunner::times() const {
   return loop_->times();
 }

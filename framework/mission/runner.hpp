@@ -105,6 +105,7 @@ class MissionRunner {
   [[nodiscard]] RunStatus status() const;
   [[nodiscard]] std::vector<NodeReport> node_reports() const;  // of all nodes that were ticked
   [[nodiscard]] const std::vector<Pose2>& driven_path() const;
+  [[nodiscard]] ClusterTree clusters() const;  // as they were last brought in line
 
   // After run(). The grids are null when the module that was left behind was working on them.
   [[nodiscard]] const OccupancyGrid* grid() const;

@@ -32,14 +32,15 @@ bool NearMiss::is_close() const {
   return !needed || degree >= 0.5 * (NearMisses::kMinDegree + *needed);
 }
 
-void NearMisses::update(const Matching& matching) {
+void NearMisses::update(const Matching& matching, double time_s) {
   if (matching.detection) {
     const Point at_m = matching.detection->T_map_landmark.position();
     std::erase_if(places_, [&](const NearMiss& place) { return is_near(place.at_m, at_m); });
     return;
   }
-  const std::optional<NearMiss> miss = near_miss_of(matching);
+  std::optional<NearMiss> miss = near_miss_of(matching);
   if (!miss) return;
+  miss->time_s = time_s;
   std::erase_if(places_, [&](const NearMiss& place) { return is_near(place.at_m, miss->at_m); });
   places_.push_back(*miss);
   if (places_.size() > kMaxPlaces) places_.erase(std::ranges::min_element(places_, {}, &NearMiss::degree));

@@ -17,6 +17,7 @@ struct NearMiss {
   std::string next_category{};  // that fitted next best; empty: no other was reported
   double next_degree = 0.0;
   std::optional<double> needed{};  // degree above which a category fits, where the detector has such a threshold
+  double time_s = 0.0;             // of the matching
   // At least half of the way from NearMisses::kMinDegree to what is needed: walls come as far as less than that.
   [[nodiscard]] bool is_close() const;
 };
@@ -28,7 +29,7 @@ class NearMisses {
   static constexpr std::size_t kMaxPlaces = 200;  // the worst goes first
 
   // The newest matching of a place counts, as its map holds all that earlier ones saw.
-  void update(const Matching& matching);
+  void update(const Matching& matching, double time_s);
   // Those at which no landmark has become known, best first.
   [[nodiscard]] std::vector<NearMiss> away_from(const LandmarkGraph& graph) const;
 

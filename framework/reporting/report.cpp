@@ -196,7 +196,8 @@ ordered_json json_of(const std::vector<NearMiss>& misses) {
     ordered_json entry = {{"category", miss.category},
                           {"x_m", rounded(miss.at_m.x())},
                           {"y_m", rounded(miss.at_m.y())},
-                          {"degree", rounded(miss.degree)}};
+                          {"degree", rounded(miss.degree)},
+                          {"time_s", rounded(miss.time_s)}};
     if (!miss.next_category.empty()) {
       entry["next_category"] = miss.next_category;
       entry["next_degree"] = rounded(miss.next_degree);
@@ -229,7 +230,7 @@ void RunReport::on(const Event& event, const MissionView& view) {
   track_.on(event, view);
   if (const auto* done = std::get_if<MatchingDone>(&event)) {
     const Matching& matching = done->matching;
-    near_misses_.update(matching);
+    near_misses_.update(matching, view.world.time_s);
     degrees_.add({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
                   true_pose(view).value_or(view.world.pose.T_map_robot).position(), matching.fits_above});
   }

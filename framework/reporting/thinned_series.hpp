@@ -29,6 +29,10 @@ class ThinnedSeries {
     samples_.push_back(std::move(sample));
   }
 
+  // Whether the next one that is offered may be kept; skip() offers one that is not.
+  [[nodiscard]] bool wants_next() const { return offered_ % every_ == 0; }
+  void skip() { ++offered_; }
+
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
   [[nodiscard]] std::int64_t every() const { return every_; }  // that one in so many is kept
 

@@ -46,6 +46,15 @@ std::vector<LandmarkId> members_of(const ClusterTree& tree, ClusterId cluster) {
   return members;
 }
 
+std::vector<ListedCluster> listed(const ClusterTree& tree, const LandmarkGraph& graph) {
+  std::map<ClusterId, std::vector<LandmarkId>> members;
+  for (const auto& [landmark, leaf] : tree.cluster_of)
+    for (ClusterId id = leaf; id != 0; id = tree.clusters.at(id).parent) members[id].push_back(landmark);
+  std::vector<ListedCluster> list;
+  for (const auto& [id, cluster] : tree.clusters) list.push_back({cluster, label_of(cluster, graph), members[id]});
+  return list;
+}
+
 bool looks_like_id(std::string_view name) {
   if (name.size() < 2 || (name[0] != 'L' && name[0] != 'C') || !is_digit(name[1])) return false;
   const auto behind = std::find_if_not(name.begin() + 1, name.end(), is_digit);

@@ -40,6 +40,16 @@ struct ClusterTree {
                                           const std::string& label);
 // The landmarks of a cluster of any level, rising. O(landmarks).
 [[nodiscard]] std::vector<LandmarkId> members_of(const ClusterTree& tree, ClusterId cluster);
+
+struct ListedCluster {
+  Cluster cluster;
+  std::string label;
+  std::vector<LandmarkId> landmarks;  // rising
+  bool operator==(const ListedCluster&) const = default;
+};
+// All clusters by rising id. O(landmarks * levels).
+[[nodiscard]] std::vector<ListedCluster> listed(const ClusterTree& tree, const LandmarkGraph& graph);
+
 // Whether it is, or begins like, what Cairn calls things by itself: "L17", "C2:...". No user's name should.
 [[nodiscard]] bool looks_like_id(std::string_view name);
 

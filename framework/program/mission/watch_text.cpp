@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/behaviour_tree/tree_text.hpp"
+#include "framework/program/mission/clusters_json.hpp"
 #include "framework/program/mission/status_json.hpp"
 #include "maps/base/base64.hpp"
 
@@ -64,7 +65,7 @@ std::string_view watch_state(double range_m) {
 }
 
 // Where the transducer is in the map, half its beam, and how far it has seen.
-Json watch_json(const std::vector<WatchRange>& ranges) {
+Json watch_json(const std::vector<ShownRange>& ranges) {
   Json list = Json::array();
   for (const auto& [time_s, T_map_sensor, reading] : ranges) {
     const double range_m = std::isfinite(reading.range_m) ? reading.range_m : reading.max_m;
@@ -155,6 +156,7 @@ void add_watched_map(Json& line, const WatchFrame& frame) {
   }
   if (!frame.retired.empty()) line["retired"] = frame.retired;
   if (frame.routes) line["routes"] = watch_json(*frame.routes);
+  if (frame.clusters) line["clusters"] = json_of(*frame.clusters);
   if (frame.has_more) line["more"] = true;
 }
 

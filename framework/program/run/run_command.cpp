@@ -286,7 +286,8 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunReport report(mission.config.history);
   watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },
                    [&runner]() -> const std::vector<Pose2>& { return runner.driven_path(); },
-                   [&report] { return report.events().sentences(); }, [&runner] { return runner.times(); }});
+                   [&report] { return report.events().sentences(); }, [&runner] { return runner.times(); },
+                   [&runner] { return runner.clusters(); }});
   std::optional<McapRecording> mcap;
   if (!mission.config.record_mcap.empty()) mcap.emplace(command.out / mission.config.record_mcap);
   const MissionResult result =

@@ -1,8 +1,9 @@
 #include "framework/program/view/map_view.hpp"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
+
+#include "framework/program/mission/clusters_json.hpp"
 
 namespace cairn {
 namespace {
@@ -107,18 +108,7 @@ std::string view_routes_json(const LandmarkGraph& graph) {
 }
 
 std::string view_clusters_json(const ClusterTree& tree, const LandmarkGraph& graph) {
-  std::map<ClusterId, std::vector<LandmarkId>> members;
-  for (const auto& [landmark, cluster] : tree.cluster_of)
-    for (ClusterId at = cluster; at != 0; at = tree.clusters.at(at).parent) members[at].push_back(landmark);
-  Json clusters = Json::array();
-  for (const auto& [id, cluster] : tree.clusters)
-    clusters.push_back({{"id", id},
-                        {"level", cluster.level},
-                        {"parent", cluster.parent},
-                        {"label", label_of(cluster, graph)},
-                        {"anchor", cluster.anchor},
-                        {"landmarks", members[id]}});
-  return text_of_json(clusters);
+  return text_of_json(json_of(listed(tree, graph)));
 }
 
 }  // namespace cairn

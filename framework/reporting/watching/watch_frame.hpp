@@ -12,6 +12,8 @@
 #include "framework/mission/run_control.hpp"
 #include "framework/modules/stage_clock.hpp"
 #include "framework/reporting/grid_tiles.hpp"
+#include "framework/reporting/last_ranges.hpp"
+#include "maps/clustering/cluster_tree.hpp"
 
 namespace cairn {
 
@@ -31,13 +33,6 @@ struct WatchPlan {
   PlanResult result;
 };
 
-// Where the transducer was then, too.
-struct WatchRange {
-  double time_s = 0.0;
-  Pose2 T_map_sensor;
-  RangeReading reading;
-};
-
 struct WatchFrame {
   bool is_last = false;    // of the run: has no pose, ranges and status
   bool is_afresh = false;  // all that was sent of the map is to be forgotten: it is another one now
@@ -47,7 +42,7 @@ struct WatchFrame {
   PoseEstimate pose;
   Twist commanded{};
   std::optional<Pose2> truth{};
-  std::vector<WatchRange> ranges{};  // of the last observation; of few transducers, the last of each
+  std::vector<ShownRange> ranges{};  // of the last observation; of few transducers, the last of each
   double cell_m = 0.0;
   Point origin_m{0.0, 0.0};
   CellBox bounds;
@@ -55,15 +50,16 @@ struct WatchFrame {
   bool has_more = false;          // tiles or landmarks that did not fit in
   std::vector<Landmark> landmarks{};
   std::vector<LandmarkId> retired{};
-  std::shared_ptr<const std::vector<Route>> routes{};  // null: as before
-  std::shared_ptr<const WatchPlan> plan{};             // the last one, while it is under way
-  std::vector<NodeReport> nodes{};                     // that were ticked
-  std::vector<WatchLine> lines{};                      // since the last frame
-  std::uint64_t lines_left_out = 0;                    // before these
-  std::vector<Point> driven{};                         // of the first frame
-  std::vector<std::string> past{};                     // of the first frame: sentences so far, each behind its time
-  std::vector<StageTime> times{};                      // so far, of the wall clock: once a second of the mission
-  std::optional<RunStatus> status{};                   // when it was asked for
+  std::shared_ptr<const std::vector<Route>> routes{};            // null: as before
+  std::shared_ptr<const std::vector<ListedCluster>> clusters{};  // null: as before
+  std::shared_ptr<const WatchPlan> plan{};                       // the last one, while it is under way
+  std::vector<NodeReport> nodes{};                               // that were ticked
+  std::vector<WatchLine> lines{};                                // since the last frame
+  std::uint64_t lines_left_out = 0;                              // before these
+  std::vector<Point> driven{};                                   // of the first frame
+  std::vector<std::string> past{};    // of the first frame: sentences so far, each behind its time
+  std::vector<StageTime> times{};     // so far, of the wall clock: once a second of the mission
+  std::optional<RunStatus> status{};  // when it was asked for
 };
 
 }  // namespace cairn

@@ -9,9 +9,8 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kMaxSonars = 32;  // with more it is a laser, which sees all at once
-constexpr double kRangesShown_s = 1.0;
 constexpr double kTimesEvery_s = 1.0;
+constexpr double kClustersEvery_s = 1.0;
 
 template <class Item>
 std::vector<Item> evenly_chosen(const std::vector<Item>& items, std::size_t max) {
@@ -41,6 +40,7 @@ void WatchSource::stop_watching() {
   tiles_.clear();
   landmarks_.clear();
   routes_.reset();
+  clusters_.reset();
   plan_.reset();
   ranges_.clear();
   lines_begin_ += lines_.size();
@@ -52,7 +52,7 @@ void WatchSource::note(const Event& event, const MissionView& view) {
     plan_.reset();
   if (const auto* const tick = std::get_if<TickDone>(&event)) {
     if (tick->changes != nullptr) note_tiles(*tick->changes);
-    return note_ranges(view.world);
+    return ranges_.note(view.world);
   }
   if (const auto* const change = std::get_if<LandmarkChanged>(&event)) landmarks_.mark(change->landmark.id);
   if (const auto* const retired = std::get_if<LandmarkRetired>(&event)) landmarks_.mark(retired->landmark.id);
@@ -84,18 +84,6 @@ void WatchSource::note_plan(const Event& event, double time_s) {
   is_from_planner_ = false;
 }
 
-// Sonars fire in turn: the others' last readings are shown for a while.
-void WatchSource::note_ranges(const WorldView& world) {
-  if (world.observation == nullptr) return;
-  const std::vector<RangeReading>& ranges = world.observation->ranges;
-  std::erase_if(ranges_, [&](const WatchRange& old) {
-    return ranges.size() > kMaxSonars || old.time_s < world.time_s - kRangesShown_s ||
-           std::ranges::any_of(ranges, [&](const RangeReading& now) { return now.sensor == old.reading.sensor; });
-  });
-  for (const RangeReading& reading : evenly_chosen(ranges, kMaxFrameRanges))
-    ranges_.push_back({world.time_s, world.pose.T_map_robot * reading.T_robot_sensor, reading});
-}
-
 void WatchSource::note_tiles(const CellChanges& changes) {
   for (const Cell& tile : tiles_touched(changes)) tiles_.mark(tile);
 }
@@ -108,6 +96,8 @@ void WatchSource::note_all(const Map& map) {
   tiles_.clear();
   landmarks_.clear();
   routes_.reset();
+  clusters_.reset();
+  next_clusters_s_ = 0.0;
   for (const Cell& tile : tiles_written(*grid_)) tiles_.mark(tile);
   for (const auto& [id, landmark] : map.graph.landmarks()) landmarks_.mark(id);
 }
@@ -132,8 +122,21 @@ void WatchSource::note_routes(const LandmarkGraph& graph) {
   ++routes_version_;
 }
 
+// Nor has a tree.
+void WatchSource::note_clusters(const LandmarkGraph& graph) {
+  if (!look_.clusters) return;
+  std::vector<ListedCluster> now = listed(look_.clusters(), graph);
+  if (clusters_ ? now == *clusters_ : now.empty()) return;
+  clusters_ = std::make_shared<const std::vector<ListedCluster>>(std::move(now));
+  ++clusters_version_;
+}
+
 void WatchSource::serve(const MissionView& view) {
   note_routes(view.world.graph);
+  if (view.world.time_s >= next_clusters_s_) {
+    next_clusters_s_ = view.world.time_s + kClustersEvery_s;
+    note_clusters(view.world.graph);
+  }
   const std::scoped_lock lock(mutex_);
   for (Reader& reader : readers_) {
     if (!reader.wants_frame) continue;
@@ -152,7 +155,7 @@ WatchFrame WatchSource::frame_for(Reader& reader, const MissionView& view) const
   frame.pose = view.world.pose;
   frame.commanded = view.commanded;
   if (view.truth) frame.truth = view.truth->T_map_robot;
-  frame.ranges = ranges_;
+  frame.ranges = ranges_.ranges();
   add_map(frame, reader, {view.world.grid, view.world.graph}, kMaxFrameTiles);
   frame.plan = plan_;
   if (look_.nodes) frame.nodes = look_.nodes();
@@ -169,7 +172,7 @@ void WatchSource::add_map(WatchFrame& frame, Reader& reader, const Map& map, std
   if (reader.epoch != epoch_) {
     frame.is_afresh = true;
     reader.epoch = epoch_;
-    reader.tiles = reader.landmarks = reader.routes = 0;
+    reader.tiles = reader.landmarks = reader.routes = reader.clusters = 0;
   }
   frame.cell_m = grid.cell_m();
   frame.origin_m = grid.origin_m();
@@ -183,9 +186,10 @@ void WatchSource::add_map(WatchFrame& frame, Reader& reader, const Map& map, std
       frame.retired.push_back(id);
   }
   frame.has_more = tiles_.has_more(reader.tiles) || landmarks_.has_more(reader.landmarks);
-  if (reader.routes == routes_version_) return;
-  frame.routes = routes_;
+  if (reader.routes != routes_version_) frame.routes = routes_;
   reader.routes = routes_version_;
+  if (reader.clusters != clusters_version_) frame.clusters = clusters_;
+  reader.clusters = clusters_version_;
 }
 
 void WatchSource::add_past(WatchFrame& frame, Reader& reader) const {
@@ -226,6 +230,7 @@ void WatchSource::end(const OccupancyGrid* grid, const LandmarkGraph& graph) {
   if (is_watched_ && grid != nullptr) {
     if (grid != grid_) note_all({*grid, graph});
     note_routes(graph);
+    note_clusters(graph);
   }
   for (Reader& reader : readers_) {
     WatchFrame frame;

@@ -30,6 +30,7 @@ class WatchSource final : public Listener {
     std::function<const std::vector<Pose2>&()> driven{};
     std::function<std::vector<std::string>()> sentences{};  // of all events, that which is published too
     std::function<std::vector<StageTime>()> times{};
+    std::function<ClusterTree()> clusters{};
   };
   class Watch;
 
@@ -56,6 +57,7 @@ class WatchSource final : public Listener {
     std::uint64_t landmarks = 0;
     std::uint64_t lines = 0;
     std::uint64_t routes = 0;
+    std::uint64_t clusters = 0;
     double next_times_s = 0.0;  // of the mission
     std::shared_ptr<const WatchFrame> frame{};
     std::shared_ptr<const WatchFrame> last_frame{};
@@ -70,8 +72,8 @@ class WatchSource final : public Listener {
   void note_tiles(const CellChanges& changes);
   void note_all(const Map& map);
   void note_routes(const LandmarkGraph& graph);
+  void note_clusters(const LandmarkGraph& graph);
   void note_plan(const Event& event, double time_s);
-  void note_ranges(const WorldView& world);
   void serve(const MissionView& view);
   [[nodiscard]] WatchFrame frame_for(Reader& reader, const MissionView& view) const;
   void add_map(WatchFrame& frame, Reader& reader, const Map& map, std::size_t max_tiles) const;
@@ -90,9 +92,12 @@ class WatchSource final : public Listener {
   ChangeLog<LandmarkId> landmarks_;
   std::shared_ptr<const std::vector<Route>> routes_;
   std::uint64_t routes_version_ = 0;
+  std::shared_ptr<const std::vector<ListedCluster>> clusters_;
+  std::uint64_t clusters_version_ = 0;
+  double next_clusters_s_ = 0.0;  // of the mission
   std::shared_ptr<const WatchPlan> plan_;
   bool is_from_planner_ = false;  // the plan
-  std::vector<WatchRange> ranges_;
+  LastRanges ranges_{kMaxFrameRanges};
   std::deque<WatchLine> lines_;
   std::uint64_t lines_begin_ = 0;  // number of the first line
 

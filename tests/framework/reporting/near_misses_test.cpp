@@ -14,7 +14,7 @@ Matching matching(const Point& at_m, double square, double circle) {
 
 TEST(NearMisses, NameBothCategoriesAndWhatIsNeeded) {
   NearMisses misses;
-  misses.update(matching({1.0, 2.0}, 0.57, 0.52));
+  misses.update(matching({1.0, 2.0}, 0.57, 0.52), 7.5);
   const std::vector<NearMiss> found = misses.away_from({});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(words_about(found[0]), "square 0.57 (circle 0.52), needs 0.60");
@@ -23,15 +23,15 @@ TEST(NearMisses, NameBothCategoriesAndWhatIsNeeded) {
 
 TEST(NearMisses, LeaveOutWhatHardlyFits) {
   NearMisses misses;
-  misses.update(matching({1.0, 2.0}, 0.44, 0.2));
+  misses.update(matching({1.0, 2.0}, 0.44, 0.2), 7.5);
   EXPECT_TRUE(misses.away_from({}).empty());
 }
 
 TEST(NearMisses, KeepTheNewestOfAPlaceAndListTheBestFirst) {
   NearMisses misses;
-  misses.update(matching({1.0, 2.0}, 0.59, 0.5));
-  misses.update(matching({1.1, 2.1}, 0.5, 0.47));
-  misses.update(matching({4.0, 2.0}, 0.3, 0.55));
+  misses.update(matching({1.0, 2.0}, 0.59, 0.5), 7.5);
+  misses.update(matching({1.1, 2.1}, 0.5, 0.47), 7.5);
+  misses.update(matching({4.0, 2.0}, 0.3, 0.55), 7.5);
   const std::vector<NearMiss> found = misses.away_from({});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].category, "circle");
@@ -40,11 +40,11 @@ TEST(NearMisses, KeepTheNewestOfAPlaceAndListTheBestFirst) {
 
 TEST(NearMisses, EndWhereALandmarkIsFound) {
   NearMisses misses;
-  misses.update(matching({1.0, 2.0}, 0.59, 0.5));
-  misses.update(matching({4.0, 2.0}, 0.59, 0.5));
+  misses.update(matching({1.0, 2.0}, 0.59, 0.5), 7.5);
+  misses.update(matching({4.0, 2.0}, 0.59, 0.5), 7.5);
   Matching decided = matching({1.0, 2.1}, 0.7, 0.5);
   decided.detection = Detection{"square", {1.0, 2.1, 0.0}, 0.7, {}};
-  misses.update(decided);
+  misses.update(decided, 7.5);
   EXPECT_EQ(misses.away_from({}).size(), 1U);
   LandmarkGraph graph;
   Landmark landmark;
@@ -56,7 +56,7 @@ TEST(NearMisses, EndWhereALandmarkIsFound) {
 
 TEST(NearMisses, KeepTheBestWhereThereAreTooMany) {
   NearMisses misses;
-  for (int i = 0; i < 300; ++i) misses.update(matching({1.0 * i, 0.0}, i == 0 ? 0.46 : 0.5, 0.1));
+  for (int i = 0; i < 300; ++i) misses.update(matching({1.0 * i, 0.0}, i == 0 ? 0.46 : 0.5, 0.1), 7.5);
   EXPECT_EQ(misses.away_from({}).size(), NearMisses::kMaxPlaces);
   EXPECT_EQ(misses.away_from({}).back().degree, 0.5);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "maps/base/base64.hpp"
@@ -33,10 +34,10 @@ TEST(RunTrack, HoldsPosesPlansAndLandmarksWithTheirTimes) {
   track.on(LandmarkRetired{landmark, "freed"}, {view(3.0)});
   EXPECT_EQ(
       track.json(),
-      R"({"robot_radius_m":0.31,"poses_every":1,"poses":[[1.0,1.0,0.0,0.25],[2.0,2.0,0.0,0.25]],)"
+      R"({"robot_radius_m":0.31,"poses_every":1,"poses":[[1.0,1.0,0.0,0.25,0.0,0.0,0.0],[2.0,2.0,0.0,0.25,0.0,0.0,0.0]],)"
       R"("plans":[{"time_s":0.5,"points":[[0.0,0.0],[0.0,3.0]]},)"
       R"({"time_s":1.0,"points":[[0.0,0.0],[2.0,1.0]]},{"time_s":2.0,"points":[]}],)"
-      R"("landmarks":[{"time_s":1.5,"id":3,"change":"found"},{"time_s":3.0,"id":3,"change":"retired"}],"grid":[]})"
+      R"("landmarks":[{"time_s":1.5,"id":3,"change":"found"},{"time_s":3.0,"id":3,"change":"retired"}],"grid":[],"ranges":[]})"
       "\n");
 }
 
@@ -58,6 +59,30 @@ TEST(RunTrack, HoldsWhatOfTheGridHasChanged) {
   const std::string ol = inflated(std::string(packed.begin(), packed.end()), GridTile::kCells);
   EXPECT_EQ(static_cast<std::uint8_t>(ol[std::size_t{63} * 64]), ol_of(400));
   EXPECT_EQ(static_cast<std::uint8_t>(ol[0]), kUnknownOl);
+}
+
+TEST(RunTrack, HoldsHowSureThePoseIsAndTheLastReadings) {
+  const OccupancyGrid grid(0.05);
+  const LandmarkGraph graph;
+  const RobotModel robot;
+  PoseEstimate pose;
+  pose.T_map_robot = {1.0, 2.0, 0.0};
+  pose.covariance(0, 1) = 0.001234;
+  const double none = std::numeric_limits<double>::infinity();
+  Observation observation;
+  RunTrack track;
+  const auto tick = [&](double time_s, const RangeReading& reading) {
+    observation.ranges = {reading};
+    track.on(TickDone{}, {WorldView{grid, graph, robot, pose, time_s, &observation}});
+  };
+  tick(0.1, {{0.1, 0.0, 1.0}, 0.26, 0.1, 5.0, 1.5, 0});
+  tick(0.2, {{0.0, 0.2, 0.0}, 0.26, 0.1, 5.0, none, 1});
+  tick(0.3, {{0.0, 0.2, 0.0}, 0.26, 0.1, 5.0, -none, 1});
+  const auto json = nlohmann::json::parse(track.json());
+  EXPECT_EQ(json["poses"][0], nlohmann::json::parse("[0.1, 1.0, 2.0, 0.0, 0.0, 0.001234, 0.0]"));
+  EXPECT_EQ(json["ranges"], nlohmann::json::parse("[[0.1, [1.1, 2.0, 1.0, 0.26, 1.5]],"
+                                                  "[0.2, [1.1, 2.0, 1.0, 0.26, 1.5], [1.0, 2.2, 0.0, 0.26, -5.0]],"
+                                                  "[0.3, [1.1, 2.0, 1.0, 0.26, 1.5]]]"));
 }
 
 TEST(RunTrack, HasABoundedSize) {

@@ -2,16 +2,16 @@
 import { ask_json, element, post, say, token } from './api.js';
 import { Chart } from './charts.js';
 import { begin, categories_of, draw_landmarks, draw_lines, draw_plan, draw_ranges, draw_robot, draw_routes, draw_sign, fit, fit_again, redraw, view } from './canvas.js';
+import { draw_clusters, offer_levels } from './clusters.js';
 import { list_landmarks } from './map.js';
 import { add_lines, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 import { bytes_of, Tiles } from './tiles.js';
 
 const kMaxPath = 20000, kRetry_ms = 1000;
-const run = { tiles: new Tiles(), landmarks: new Map(), routes: [], path: [], ranges: [], plan: null };
+const run = { tiles: new Tiles(), landmarks: new Map(), routes: [], clusters: [], path: [], ranges: [], plan: null };
 const charts = new Map();  // title -> Chart
 let may_steer = false, has_ended = false, target = null;
 let settings = {};  // of the view
-
 
 function chart_of(title, unit) {
   if (!charts.has(title)) { charts.set(title, new Chart(title, unit)); show_parts('charts-part'); }
@@ -84,7 +84,7 @@ function take_status(status) {
 
 function begin_run(line) {
   if (line.ok !== true) { say(`The run cannot be watched: ${line.error}`); return; }
-  Object.assign(run, { tiles: new Tiles(), landmarks: new Map(), routes: [], path: [], shown: [], categories: [], next_figure_s: 0, times: null, sentence: '' });
+  Object.assign(run, { tiles: new Tiles(), landmarks: new Map(), routes: [], clusters: [], path: [], shown: [], categories: [], next_figure_s: 0, times: null, sentence: '' });
   run.radius_m = line.robot_radius_m;
   document.title = element('name').textContent = line.mission;
   element('log').replaceChildren();
@@ -96,11 +96,12 @@ function take(line) {
   if ('ok' in line) return begin_run(line);
   if (line.status) take_status(line.status);
   if (line.ended) { end(); return; }
-  if (line.afresh) { run.tiles.clear(); run.landmarks.clear(); }
+  if (line.afresh) { run.tiles.clear(); run.landmarks.clear(); run.clusters = []; }
   if (line.grid) { run.grid = line.grid; fit_again(); }
   for (const [tx, ty, text] of line.tiles ?? []) run.tiles.take(tx, ty, bytes_of(text));
   take_landmarks(line.landmarks, line.afresh ? [0] : line.retired);
   if (line.routes) run.routes = line.routes;
+  if (line.clusters) { run.clusters = line.clusters; offer_levels(run.clusters); }
   if (line.driven) run.path = line.driven;
   if (line.pose) take_pose(line.pose);
   if (line.ranges) run.ranges = line.ranges;
@@ -121,6 +122,7 @@ function draw() {
   if (element('show-ranges').checked) draw_ranges(run.ranges);
   if (element('show-routes').checked) draw_routes(run.routes);
   if (element('show-path').checked) draw_lines([run.path], '#009e73', 1.5);
+  draw_clusters(run.clusters, run.shown);
   if (element('show-landmarks').checked) draw_landmarks(run.shown, run.categories);
   draw_plan(run.plan?.points ?? []);
   if (run.truth && element('show-truth').checked) draw_robot(run.truth, run.radius_m, '#e69f00');
@@ -223,7 +225,7 @@ export function show_live(view_settings) {
   show_parts('clock', 'facts-part', 'tree-part', 'log-part', 'ranges-label', 'truth-label');
   element('show-path').checked = true;
   if (settings.control) offer_steering();
-  element('plan-part').hidden = element('clusters-label').hidden = true;
+  element('plan-part').hidden = true;
   begin({ draw, show_all, click: (x, y) => aim([x, y], '', `${x.toFixed(2)},${y.toFixed(2)}`) });
   view.scale = 60;
   connect();

@@ -1,6 +1,7 @@
 // A saved map: its grid by levels, landmarks, routes and clusters; plans by two clicks.
 import { ask, ask_json, element, post, say } from './api.js';
-import { begin, categories_of, draw_label, draw_landmarks, draw_lines, draw_picture, draw_routes, draw_sign, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
+import { begin, categories_of, draw_landmarks, draw_lines, draw_picture, draw_routes, draw_sign, fit, new_picture, paint_cells, redraw, view } from './canvas.js';
+import { draw_clusters, offer_levels } from './clusters.js';
 
 const kTile = 512, kRetry_ms = 5000;
 export let map, landmarks = [], routes = [];
@@ -51,24 +52,12 @@ function draw_grid() {
   for (const { x, y, picture } of levels.get(level)) draw_picture(picture, left + x * side, low + y * side, side);
 }
 
-function draw_clusters() {
-  const level = Number(element('level').value);
-  if (!level) return;
-  const at = new Map(landmarks.map((landmark) => [landmark.id, landmark]));
-  for (const cluster of clusters.filter((one) => one.level === level)) {
-    const anchor = at.get(cluster.anchor);
-    if (!anchor) continue;
-    draw_lines(cluster.landmarks.map((id) => [[anchor.x, anchor.y], [at.get(id).x, at.get(id).y]]), '#cc79a7', 3, [6, 4]);
-    draw_label(cluster.label, anchor.x, anchor.y);
-  }
-}
-
 // shown: the landmarks that are drawn; draw_cells: the grid, where it is another than the saved one.
 export function draw_map(shown = landmarks, draw_cells = draw_grid) {
   draw_cells();
   if (element('show-routes').checked) draw_routes(routes);
   if (marked) draw_lines([marked.points], '#e69f00', 5);
-  draw_clusters();
+  draw_clusters(clusters, landmarks);
   if (element('show-landmarks').checked) draw_landmarks(shown, categories);
 }
 
@@ -175,11 +164,7 @@ export async function load_lists() {
 export async function load_map() {
   map = await ask_json('/api/map');
   await load_lists();
-  for (const level of [...new Set(clusters.map((cluster) => cluster.level))].sort()) {
-    const option = document.createElement('option');
-    option.value = option.textContent = level;
-    element('level').append(option);
-  }
+  offer_levels(clusters);
   element('clear').onclick = clear;
   element('plan').onsubmit = (event) => { event.preventDefault(); ends = []; plan(); };
 }

@@ -1,12 +1,13 @@
 // A finished run: where the robot was, what it did and what had been said at any time of it.
 import { ask_json, element, say } from './api.js';
 import { Chart } from './charts.js';
-import { begin, draw_lines, draw_plan, draw_robot, draw_sign, redraw } from './canvas.js';
+import { begin, draw_lines, draw_plan, draw_ranges, draw_robot, draw_sign, redraw } from './canvas.js';
 import { GridHistory } from './grid_history.js';
 import * as saved from './map.js';
 import { clear_nodes, event_of, show_facts, show_lines, show_node, show_parts, show_tree } from './panels.js';
 
-let report, track = { poses: [], plans: [], landmarks: [] }, grid = new GridHistory([]);
+let report, track = { poses: [], plans: [], landmarks: [], ranges: [] }, grid = new GridHistory([]);
+const kReadingsShown_s = 1;
 const charts = [];
 let events = [], runs = [], at_s = 0, end_s = 0, player = null;
 
@@ -39,7 +40,15 @@ function pose_at(time_s) {
   const before = track.poses[i], after = track.poses[i + 1] ?? before;
   const part = after[0] > before[0] ? (time_s - before[0]) / (after[0] - before[0]) : 0;
   const turn = Math.atan2(Math.sin(after[3] - before[3]), Math.cos(after[3] - before[3]));
-  return [time_s, before[1] + part * (after[1] - before[1]), before[2] + part * (after[2] - before[2]), before[3] + part * turn];
+  return [time_s, before[1] + part * (after[1] - before[1]), before[2] + part * (after[2] - before[2]), before[3] + part * turn, before.slice(4)];
+}
+
+// As the live view draws them; a range without an echo is negative.
+function ranges_at(time_s) {
+  const ranges = track.ranges ?? [];
+  const [then_s, ...readings] = ranges[last_before(ranges, (one) => one[0], time_s)] ?? [-Infinity];
+  if (time_s - then_s > kReadingsShown_s + (ranges.length > 1 ? ranges[1][0] - ranges[0][0] : 0)) return [];
+  return readings.map(([x, y, theta, half, range]) => [x, y, theta, half, Math.abs(range), range < 0 ? 'no_echo' : 'echo']);
 }
 
 // Landmarks that the run found are there from then on; others it had from the beginning.
@@ -54,12 +63,13 @@ function draw() {
   const i = last_before(track.poses, (pose) => pose[0], at_s);
   const path = track.poses.slice(0, i + 1).map(([, x, y]) => [x, y]);
   if (element('show-path').checked) draw_lines([path], '#009e73', 2);
+  if (element('show-ranges').checked) draw_ranges(ranges_at(at_s));
   const plan = track.plans[last_before(track.plans, (one) => one.time_s, at_s)];
   draw_plan(plan?.points ?? []);
   if (element('show-misses').checked)
-    for (const miss of report.near_misses ?? []) draw_sign('✕', `${miss.category} ${miss.degree.toFixed(2)}`, miss.x_m, miss.y_m);
+    for (const miss of (report.near_misses ?? []).filter((one) => (one.time_s ?? 0) <= at_s)) draw_sign('✕', `${miss.category} ${miss.degree.toFixed(2)}`, miss.x_m, miss.y_m);
   const pose = pose_at(at_s);
-  if (pose) draw_robot(pose.slice(1), track.robot_radius_m ?? 0, '#cc79a7');
+  if (pose) draw_robot(pose.slice(1), track.robot_radius_m ?? 0, '#cc79a7', pose[4]?.length ? pose[4] : undefined);
   saved.draw_plan();
 }
 
@@ -155,6 +165,7 @@ export async function show_run(settings) {
   runs = [...report.node_runs ?? []].sort((a, b) => a.end_s - b.end_s);
   end_s = Math.max(report.time_s, 0.1);
   document.title = element('name').textContent = `${report.mission} (${settings.name})`;
+  if (track.ranges?.length) show_parts('ranges-label');
   show_parts('clock', 'timeline', 'tree-part', 'log-part', 'facts-part');
   element('show-path').checked = true;
   show_facts([['outcome', report.outcome], ['reason', report.reason || '-'], ['driven', `${report.distance_m.toFixed(1)} m`],

@@ -72,6 +72,29 @@ TEST_F(WatchedMission, TheFirstFrameHoldsAllAndTheNextWhatHasChanged) {
   EXPECT_THAT(frame_of(*watch)->tiles, IsEmpty());
 }
 
+TEST_F(WatchedMission, ClustersComeWhenTheyAreOthers) {
+  Landmark landmark;
+  landmark.category = "square";
+  const LandmarkId id = graph_.add(landmark);
+  ClusterTree tree;
+  WatchSource::Look look;
+  look.clusters = [&] { return tree; };
+  source_.look_by(look);
+  const auto watch = source_.attach(1);
+  EXPECT_FALSE(frame_of(*watch)->clusters);
+  tree.clusters[4] = {4, 1, 0, id, "kitchen"};
+  tree.cluster_of[id] = 4;
+  EXPECT_FALSE(frame_of(*watch)->clusters) << "once a second";
+  time_s_ += 1.0;
+  const Frame frame = frame_of(*watch);
+  ASSERT_TRUE(frame->clusters);
+  ASSERT_THAT(*frame->clusters, SizeIs(1));
+  EXPECT_EQ(frame->clusters->front().label, "kitchen");
+  EXPECT_THAT(frame->clusters->front().landmarks, ElementsAre(id));
+  time_s_ += 1.0;
+  EXPECT_FALSE(frame_of(*watch)->clusters) << "they are as they were";
+}
+
 TEST_F(WatchedMission, OneWhoComesLateGetsTheSentencesOfBeforeOnce) {
   std::vector<std::string> said;
   source_.look_by({{}, {}, {}, [&] { return said; }});
