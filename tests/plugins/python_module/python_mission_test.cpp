@@ -15,7 +15,6 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 const std::string kExamples = source_folder() + "/docs/examples/python_modules";
 
@@ -129,7 +128,7 @@ TEST(PythonMission, WhatAModulePrintsLeavesTheReportAlone) {
   const auto mission = mission_with_step(folder, step("    print('ping')\n    return 'success', 'done'\n"));
   const Finished run = run_of(mission, folder / "out");
   EXPECT_EQ(run.exit_status, 0) << run.err;
-  EXPECT_NO_THROW((void)json::parse(run.out));
+  EXPECT_TRUE(json::accept(run.out)) << run.out;
   EXPECT_THAT(run.err, HasSubstr("ping"));
 }
 
