@@ -31,7 +31,9 @@ SourcePlace place_in(const py::object& trace, const std::string& file) {
     const std::string here = utf8_of(frame.attr("filename"));
     if (is_own && here != file) continue;
     is_own = here == file;
-    place = {here, frame.attr("lineno").is_none() ? 0 : frame.attr("lineno").cast<int>(), 0};
+    const auto number = [&](const char* name) { return py::object(py::getattr(frame, name, py::none())); };
+    place = {here, number("lineno").is_none() ? 0 : number("lineno").cast<int>(),
+             number("colno").is_none() ? 0 : number("colno").cast<int>() + 1};
   }
   return place;
 }

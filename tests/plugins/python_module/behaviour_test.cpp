@@ -102,7 +102,7 @@ TEST(PythonBehaviour, WhatItReturnsIsChecked) {
 
 TEST(PythonBehaviour, WhatItRaisesHasItsLine) {
   EXPECT_THAT(error_of_tick("    return world.posee\n"),
-              MatchesRegex("[^\n]*\\.py:5:0: AttributeError: [^\n]*posee[^\n]*\n.*"));
+              MatchesRegex("[^\n]*\\.py:5:[0-9]+: AttributeError: [^\n]*posee[^\n]*\n.*"));
   EXPECT_THAT(error_of_tick("    ask.plan(to='L1')\n"), HasSubstr("to must be (x, y) or (x, y, heading)"));
 }
 
