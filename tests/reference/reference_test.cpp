@@ -43,7 +43,8 @@ TEST(Reference, EveryModuleAndEveryOneOfItsSettingsStandsInTheMarkdown) {
   const std::string text = reference_markdown(shipped_modules());
   ASSERT_FALSE(shipped_modules().entries().empty());
   for (const ModuleEntry& entry : shipped_modules().entries()) {
-    const std::size_t at = text.find("\n#### " + entry.module->name + "\n");
+    const std::size_t kind = text.find("\n### " + std::string(name_of(entry.module->kind)) + "\n");
+    const std::size_t at = text.find("\n#### " + entry.module->name + "\n", kind);
     ASSERT_NE(at, std::string::npos) << entry.module->name;
     const std::string section = text.substr(at, text.find("\n#", at + 2) - at);
     EXPECT_THAT(section, testing::HasSubstr(entry.module->summary));

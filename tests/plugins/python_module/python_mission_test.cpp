@@ -140,7 +140,7 @@ TEST(PythonMission, AMistakeIsFoundBeforeTheMissionBegins) {
         std::vector<std::string>{"mission", "check", mission.string()}}) {
     const Finished run = run_cairn(command);
     EXPECT_EQ(run.exit_status, 2) << run.out;
-    EXPECT_THAT(run.out + run.err, ContainsRegex("mission.yaml:9:32: [^\n]*it.py has no class \"It\" \\(did you mean "
+    EXPECT_THAT(run.out + run.err, ContainsRegex("mission.yaml:9:34: [^\n]*it.py has no class \"It\" \\(did you mean "
                                                  "\"If\"\\?\\)"));
   }
 }
