@@ -131,7 +131,14 @@ void add_places(py::class_<RequestsProxy>& to) {
             return answer_of(
                 it.requests.get().ask([&](BehaviourContext& context) { return context.name_landmark(id, name); }));
           },
-          py::arg("id"), py::arg("name"), "(True or False, reason).");
+          py::arg("id"), py::arg("name"), "From then on it is found by this name too: (True or False, reason).")
+      .def(
+          "name_cluster",
+          [](const RequestsProxy& it, const std::string& cluster, const std::string& name) {
+            return answer_of(
+                it.requests.get().ask([&](BehaviourContext& context) { return context.name_cluster(cluster, name); }));
+          },
+          py::arg("cluster"), py::arg("name"), "The same of a cluster, by its id (C1:L4) or name.");
 }
 
 }  // namespace

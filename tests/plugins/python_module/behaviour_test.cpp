@@ -64,6 +64,7 @@ TEST(PythonBehaviour, GivesAndTakesPlacesByName) {
                            "    ask.output('p', (1, 2, 3)); assert ask.input('p') == (1, 2, 3)\n"
                            "    ask.output('p', world.landmarks[0]); assert ask.input('p') == [1]\n"
                            "    assert ask.name_landmark(1, 'desk')[0] and not ask.name_landmark(9, 'desk')[0]\n"
+                           "    assert ask.name_cluster('C1:L1', 'room') == (False, 'there is no cluster C1:L1')\n"
                            "    done, reason = ask.save('so_far.cairn'); assert done and reason\n"
                            "    return 'success', 'given'\n"));
   BehaviourHost host;
