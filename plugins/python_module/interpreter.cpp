@@ -83,6 +83,7 @@ void start_interpreter() {
     Configuration().start();
     // The standard output is the program's: reports and JSON.
     PySys_SetObject("stdout", PySys_GetObject("stderr"));
+    pybind11::detail::get_internals();  // by a thread whose state lasts
     static_cast<void>(PyEval_SaveThread());
   });
 }

@@ -1,6 +1,6 @@
 """A sensor: observations of a CSV file with the columns stamp_s, x_m, y_m, heading_rad and range_0, range_1, ...
 
-A range_N is the reading of the robot's transducer N in metres; it is empty where that has not fired, inf without an echo.
+A range_N is the reading of the robot's transducer N in metres: empty where that has not fired, inf without an echo.
 """
 import csv
 import math

@@ -29,8 +29,10 @@ class RoundPillars:
         return found
 
     def degrees(self, grid, rows, columns, reach):
-        """How like the middle of a pillar each cell is: the mean of how much of the ring is occupied and how much of the
-        ground around it is free."""
+        """How like the middle of a pillar each cell is.
+
+        It is the mean of how much of the ring is occupied and how much of the ground around it is free.
+        """
         log_odds = known(grid, (rows[0] - reach, rows[1] + reach), (columns[0] - reach, columns[1] + reach))
         occupied, free = log_odds > SURE, log_odds < -SURE
         height, width = rows[1] - rows[0], columns[1] - columns[0]
