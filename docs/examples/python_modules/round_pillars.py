@@ -7,7 +7,7 @@ SURE = 0.62  # log-odds, nat: beyond it a cell is occupied, below its negative f
 
 
 class RoundPillars:
-    def __init__(self, context, category="pillar", diameter_m=0.5, tolerance_m=0.3, tau_match=0.75):
+    def __init__(self, context, category="pillar", diameter_m=0.5, tolerance_m=0.3, tau_match=0.6):
         self.category = category
         self.radius_m = diameter_m / 2
         self.ground_m = self.radius_m + tolerance_m / 2
@@ -31,7 +31,7 @@ class RoundPillars:
     def degrees(self, grid, rows, columns, reach):
         """How like the middle of a pillar each cell is.
 
-        It is the mean of how much of the ring is occupied and how much of the ground around it is free.
+        It is the lesser of how much of the ring is occupied and how much of the ground around it is free.
         """
         log_odds = known(grid, (rows[0] - reach, rows[1] + reach), (columns[0] - reach, columns[1] + reach))
         occupied, free = log_odds > SURE, log_odds < -SURE
@@ -42,13 +42,14 @@ class RoundPillars:
             right = reach + round(distance * math.cos(angle))
             return cells[down:down + height, right:right + width]
 
-        total = np.zeros((height, width), np.int16)
+        ring = np.zeros((height, width), np.int16)
+        around = np.zeros((height, width), np.int16)
         radius, ground = self.radius_m / grid.cell_m, self.ground_m / grid.cell_m
         for angle in self.angles:
             # An echo blurs the ring by a cell.
-            total += seen_from_each(occupied, radius, angle) | seen_from_each(occupied, radius - 1, angle)
-            total += seen_from_each(free, ground + 1, angle)
-        return total / (2 * len(self.angles))
+            ring += seen_from_each(occupied, radius, angle) | seen_from_each(occupied, radius - 1, angle)
+            around += seen_from_each(free, ground + 1, angle)
+        return np.minimum(ring, around) / len(self.angles)
 
     def middle_of_best(self, degrees):
         """(row, column): several cells beside each other may be equally good."""
