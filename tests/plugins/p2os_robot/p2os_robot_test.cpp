@@ -59,7 +59,7 @@ class P2osRobot : public testing::Test {
     }
   }
   [[nodiscard]] auto stands() {
-    return [this](double within_s) { return pioneer.wait_for_wheels(false, within_s); };
+    return [this](double within_s) { return pioneer.wait_for_wheels(false, within_s).has_value(); };
   }
   // The same in another process, without end.
   [[nodiscard]] pid_t drive_elsewhere() const {

@@ -201,7 +201,9 @@ TEST(Ros2Robot, StandsWhenItsProcessIsKilledOrHaltedAndGoesOnAfterwards) {
       ::kill(process, signal);
       EXPECT_TRUE(time.is_short(stands(base)));
       ::kill(process, SIGCONT);
-      if (signal == SIGSTOP) EXPECT_TRUE(base.drives_within(1.0));
+      if (signal == SIGSTOP) {
+        EXPECT_TRUE(base.drives_within(1.0));
+      }
       ::kill(process, SIGKILL);
       ::waitpid(process, nullptr, 0);
       EXPECT_TRUE(base.stands_within(0.5)) << signal;
