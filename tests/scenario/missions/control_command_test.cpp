@@ -132,20 +132,6 @@ TEST_F(Control, ReportedWhereNothingRunsItSaysSo) {
   EXPECT_EQ(report("pause").exit_status, 2);
 }
 
-std::string answer_to(const fs::path& socket_file, const std::string& text) {
-  sockaddr_un name{};
-  name.sun_family = AF_UNIX;
-  socket_file.string().copy(name.sun_path, sizeof name.sun_path - 1);
-  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
-  if (::connect(socket, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0) return "not connected";
-  (void)::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
-  std::string answer;
-  char c = 0;
-  while (::recv(socket, &c, 1, 0) == 1 && c != '\n') answer += c;
-  ::close(socket);
-  return answer;
-}
-
 TEST_F(Control, WhatIsNoCommandIsRefusedAndTheMissionGoesOn) {
   Conversation run(run_of(mission_in(folder_, "[wait: 1000]"), {"--realtime"}));
   (void)status_in(out_, "running");
