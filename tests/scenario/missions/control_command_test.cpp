@@ -233,7 +233,7 @@ TEST_F(Control, TheTimeOfPausesIsKeptSinceTheWorldWentOnMeanwhile) {
   const SavedMap soon = grid_after("1.5");
   const SavedMap later = grid_after("20");
   EXPECT_EQ(later.properties.at("paused_s"), "20");
-  const auto is_seen = [](const SavedMap& map, const Point& at) { return map.grid.log_odds(map.grid.cell_at(at)); };
+  const auto is_seen = [](const SavedMap& of, const Point& at) { return of.grid.log_odds(of.grid.cell_at(at)); };
   EXPECT_GT(is_seen(later, {2.2, 0.6}), is_seen(soon, {2.2, 0.6})) << "the door has closed while the mission paused";
   for (const std::string bad : {"soon", "-1", "nan", "1e300", "2 s"}) {
     saved.properties["paused_s"] = bad;
