@@ -99,6 +99,7 @@ struct PlanCommand : MapPlannerOptions {
   PlanQuestion question;
   std::string queries;      // a file, "-" for standard input, empty for one query
   std::optional<int> jobs;  // queries at once; none: as many as there are cores
+  std::string serve;        // an address at which questions are answered until Ctrl-C; empty: none
   std::filesystem::path picture;
 };
 int plan(const PlanCommand& command, const CommonOptions& common);
