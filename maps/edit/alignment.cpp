@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "maps/grid/distance_field.hpp"
@@ -33,8 +34,8 @@ Pose2 between(const Point& a1, const Point& a2, const Point& b1, const Point& b2
   return {middle.x(), middle.y(), theta_rad};
 }
 
-std::vector<Point> thinned_points(const std::vector<Point>& all) {
-  const std::size_t count = std::min(all.size(), kMaxPoints);
+std::vector<Point> thinned_points(const std::vector<Point>& all, std::size_t at_most) {
+  const std::size_t count = std::min(all.size(), at_most);
   std::vector<Point> kept;
   for (std::size_t i = 0; i < count; ++i) kept.push_back(all[i * all.size() / count]);
   return kept;
@@ -56,14 +57,22 @@ struct Guess {
   double score = 0.0;
 };
 
+// Landmarks of a graph that stand where the other map knows something.
+std::size_t known_places(const LandmarkGraph& graph, const Pose2& T_grid_graph, const OccupancyGrid& grid) {
+  return static_cast<std::size_t>(std::ranges::count_if(graph.landmarks(), [&](const auto& entry) {
+    const Point at_m = T_grid_graph * entry.second.T_map_landmark.position();
+    return grid.state(grid.cell_at(at_m)) != CellState::unknown;
+  }));
+}
+
 class Aligner {
  public:
   Aligner(const SavedMap& a, const SavedMap& b, const AlignmentRules& rules)
       : a_(a), b_(b), rules_(rules), walls_(a.grid, UnknownPolicy::allow) {
     const RasterPoints points = raster_points(b.grid, kRaster_m);
     places_ = points.free_m;
-    wall_points_ = thinned_points(points.occupied_m);
-    free_points_ = thinned_points(points.free_m);
+    wall_points_ = thinned_points(points.occupied_m, kMaxPoints);
+    free_points_ = thinned_points(points.free_m, kMaxPoints);
     if (!wall_points_.empty())
       wall_point_m2_ = kRaster_m * kRaster_m * static_cast<double>(points.occupied_m.size()) /
                        static_cast<double>(wall_points_.size());
@@ -74,19 +83,39 @@ class Aligner {
 
   AlignmentResult align() {
     guess_by_landmarks();
-    guess_by_parts();
-    std::ranges::stable_sort(guesses_, std::greater(), &Guess::score);
-    if (guesses_.size() > kMaxRefined) guesses_.resize(kMaxRefined);
-    for (Guess& guess : guesses_) guess = refined(guess);
-    std::ranges::stable_sort(guesses_, std::greater(), &Guess::score);
+    refine_best();
+    if (guesses_.empty() || guesses_.front().at.landmarks < rules_.enough_landmarks) {
+      guess_by_parts();
+      refine_best();
+    }
     return decide();
   }
 
  private:
-  static constexpr std::size_t kMaxRefined = 40;
+  static constexpr std::size_t kMaxRefined = 20;
+  static constexpr std::size_t kCoarse = 8;
+
+  void refine_best() {
+    std::ranges::stable_sort(guesses_, std::greater(), &Guess::score);
+    keep_distinct();
+    for (Guess& guess : guesses_) guess = refined(judged(guess.at.T_a_b, 1));
+    std::ranges::stable_sort(guesses_, std::greater(), &Guess::score);
+  }
+
+  // The best of those that are one, and the best of these.
+  void keep_distinct() {
+    std::vector<Guess> kept;
+    for (const Guess& guess : guesses_) {
+      const auto is_same = [&](const Guess& other) {
+        return !is_farther(guess.at.T_a_b, other.at.T_a_b, 0.3 * rules_.apart_m, 0.3 * rules_.apart_rad);
+      };
+      if (kept.size() < kMaxRefined && std::ranges::none_of(kept, is_same)) kept.push_back(guess);
+    }
+    guesses_ = std::move(kept);
+  }
 
   void add_guess(const Pose2& T_a_b) {
-    const Guess guess = judged(T_a_b);
+    const Guess guess = judged(T_a_b, kCoarse);
     if (guess.score > 0.0) guesses_.push_back(guess);
   }
 
@@ -122,43 +151,53 @@ class Aligner {
 
   // Free places of b, far enough from each other.
   [[nodiscard]] std::vector<Point> middles() const {
-    std::vector<Point> chosen;
+    std::vector<Point> all;
     for (const Point& place : places_) {
       const auto is_near = [&](const Point& other) { return (other - place).norm() < rules_.window_every_m; };
-      if (std::ssize(chosen) < rules_.max_windows && std::ranges::none_of(chosen, is_near)) chosen.push_back(place);
+      if (std::ranges::none_of(all, is_near)) all.push_back(place);
     }
-    return chosen;
+    return thinned_points(all, static_cast<std::size_t>(rules_.max_windows));
   }
 
-  [[nodiscard]] Guess judged(const Pose2& T_a_b) const {
+  // By one point in so many.
+  [[nodiscard]] Guess judged(const Pose2& T_a_b, std::size_t every) const {
     std::size_t walls = 0;
     std::size_t on_walls = 0;
     std::size_t free = 0;
     std::size_t against = 0;
-    for (const Point& point : wall_points_) {
-      const Cell cell = a_.grid.cell_at(T_a_b * point);
+    double beside_m = 0.0;  // of those that lie on walls or beside them
+    for (std::size_t i = 0; i < wall_points_.size(); i += every) {
+      const Cell cell = a_.grid.cell_at(T_a_b * wall_points_[i]);
       if (a_.grid.state(cell) == CellState::unknown) continue;
       ++walls;
       const double away_m = walls_.distance_m(cell);
       on_walls += away_m <= kBesideWall_m ? 1 : 0;
+      beside_m += away_m <= kBesideWall_m ? away_m : 0.0;
       against += away_m >= kInTheOpen_m ? 1 : 0;
     }
-    for (const Point& point : free_points_) {
-      const CellState state = a_.grid.state(a_.grid.cell_at(T_a_b * point));
+    for (std::size_t i = 0; i < free_points_.size(); i += every) {
+      const CellState state = a_.grid.state(a_.grid.cell_at(T_a_b * free_points_[i]));
       free += state != CellState::unknown ? 1 : 0;
       against += state == CellState::occupied ? 1 : 0;
     }
     Guess guess;
     guess.at.T_a_b = T_a_b;
     guess.at.landmarks = near_pairs(a_.graph, b_.graph, T_a_b, rules_.near_m).size();
+    const std::size_t seen_by_both =
+        known_places(b_.graph, T_a_b, a_.grid) + known_places(a_.graph, inverse(T_a_b), b_.grid);
+    guess.at.missing_landmarks = seen_by_both - std::min(2 * guess.at.landmarks, seen_by_both);
     if (walls + free == 0) return guess;
-    const double wall_m2 = wall_point_m2_ * static_cast<double>(walls);
-    guess.at.shared_m2 = wall_m2 + free_point_m2_ * static_cast<double>(free);
+    const double each_m2 = wall_point_m2_ * static_cast<double>(every);
+    const double wall_m2 = each_m2 * static_cast<double>(walls);
+    guess.at.shared_m2 = wall_m2 + free_point_m2_ * static_cast<double>(every) * static_cast<double>(free);
     guess.at.shared_wall_m2 = wall_m2;
     guess.at.wall_ratio = walls == 0 ? 0.0 : static_cast<double>(on_walls) / static_cast<double>(walls);
     guess.at.contradicted_ratio = static_cast<double>(against) / static_cast<double>(walls + free);
-    const double shared = wall_point_m2_ * (2.0 * static_cast<double>(on_walls) - static_cast<double>(walls));
-    guess.score = shared + kLandmarkIsWorth_m2 * static_cast<double>(guess.at.landmarks) -
+    const double shared =
+        each_m2 * (2.0 * static_cast<double>(on_walls) - beside_m / kBesideWall_m - static_cast<double>(walls));
+    guess.score = shared +
+                  kLandmarkIsWorth_m2 *
+                      (static_cast<double>(guess.at.landmarks) - static_cast<double>(guess.at.missing_landmarks)) -
                   kContradictionCosts * guess.at.contradicted_ratio * guess.at.shared_m2;
     return guess;
   }
@@ -174,7 +213,7 @@ class Aligner {
             for (int x = -1; x <= 1; ++x) {
               const Pose2& T = best.at.T_a_b;
               const Guess guess =
-                  judged({T.x_m + x * step_m, T.y_m + y * step_m, wrap_angle(T.theta_rad + turn * step_rad)});
+                  judged({T.x_m + x * step_m, T.y_m + y * step_m, wrap_angle(T.theta_rad + turn * step_rad)}, 1);
               if (guess.score <= best.score + 1e-9) continue;
               best = guess;
               is_better = true;
@@ -184,9 +223,9 @@ class Aligner {
     return best;
   }
 
-  [[nodiscard]] bool is_apart(const Pose2& one, const Pose2& other) const {
-    return (one.position() - other.position()).norm() > rules_.apart_m ||
-           std::abs(wrap_angle(one.theta_rad - other.theta_rad)) > rules_.apart_rad;
+  [[nodiscard]] static bool is_farther(const Pose2& one, const Pose2& other, double apart_m, double apart_rad) {
+    return (one.position() - other.position()).norm() > apart_m ||
+           std::abs(wrap_angle(one.theta_rad - other.theta_rad)) > apart_rad;
   }
 
   [[nodiscard]] AlignmentResult decide() const {
@@ -202,7 +241,8 @@ class Aligner {
                       "% of what both know contradicts",
                       100.0 * best.wall_ratio, 100.0 * best.contradicted_ratio)};
     for (const Guess& other : guesses_)
-      if (other.score > rules_.clear_ratio * guesses_.front().score && is_apart(best.T_a_b, other.at.T_a_b))
+      if (other.score > rules_.clear_ratio * guesses_.front().score &&
+          is_farther(best.T_a_b, other.at.T_a_b, rules_.apart_m, rules_.apart_rad))
         return {
             std::nullopt,
             fmt::format("they fit at ({:.2f}, {:.2f}, {:.0f} deg) and nearly as well at ({:.2f}, {:.2f}, {:.0f} deg)",

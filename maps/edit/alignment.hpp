@@ -17,11 +17,12 @@ namespace cairn {
 struct AlignmentRules {
   double window_m = 4.0;  // half a side of the parts of b
   double window_every_m = 3.0;
-  int max_windows = 40;
-  double near_m = 0.4;              // landmarks of one category
-  double min_shared_wall_m2 = 0.5;  // of b's occupied area on what a knows
-  double min_wall_ratio = 0.7;      // of that on a's walls, or beside them
-  double max_contradicted_ratio = 0.05;
+  int max_windows = 20;
+  std::size_t enough_landmarks = 4;  // that coincide: parts of b are not searched for
+  double near_m = 0.4;               // landmarks of one category
+  double min_shared_wall_m2 = 0.5;   // of b's occupied area on what a knows
+  double min_wall_ratio = 0.9;       // of that on a's walls, or beside them
+  double max_contradicted_ratio = 0.02;
   double clear_ratio = 0.8;          // no other guess scores more than this, of the best
   double apart_m = 0.5;              // two guesses farther apart than that,
   double apart_rad = radians(10.0);  // or turned by more, are two
@@ -29,11 +30,12 @@ struct AlignmentRules {
 
 struct MapAlignment {
   Pose2 T_a_b;
-  double wall_ratio = 0.0;          // of b's walls where a knows anything: on a's walls
-  double contradicted_ratio = 0.0;  // of all of b's points there: wall in the open, or free on a wall
-  double shared_m2 = 0.0;           // known in both
-  double shared_wall_m2 = 0.0;      // of that, b's walls
-  std::size_t landmarks = 0;        // that coincide
+  double wall_ratio = 0.0;            // of b's walls where a knows anything: on a's walls
+  double contradicted_ratio = 0.0;    // of all of b's points there: wall in the open, or free on a wall
+  double shared_m2 = 0.0;             // known in both
+  double shared_wall_m2 = 0.0;        // of that, b's walls
+  std::size_t landmarks = 0;          // that coincide
+  std::size_t missing_landmarks = 0;  // of either map, where the other knows the place and has none
 };
 
 struct AlignmentResult {
