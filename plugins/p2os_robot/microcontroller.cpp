@@ -28,6 +28,7 @@ constexpr int kTries = 3;
 constexpr double kMaxStep_m = 0.5;  // between two packets
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCompassStep_rad = radians(2.0);
+constexpr double kMaxDamagedRatio = 0.02;  // of packets
 
 // Velocity and turn velocity 0.
 std::vector<std::uint8_t> standing_bytes() {
@@ -150,6 +151,8 @@ void Microcontroller::begin_session(const Identity& identity) {
         fmt::join(known_subclasses(), ", ")));
   units_ = *units;
   odometry_.begin_session(units_);
+  identity_ = identity;
+  packets_ = 0;
   write(CommandPacket(Command::open));
   (void)send_stop();
   {
@@ -180,6 +183,23 @@ bool Microcontroller::receive(std::vector<Observation>& seen) {
   return is_there;
 }
 
+std::vector<ConnectionPart> Microcontroller::parts() {
+  ConnectionPart line{config_.device.string(), {{"baud", std::to_string(config_.baud)}}, {}};
+  if (!identity_) return {line};
+  line.values.push_back({"robot", in_quotes(identity_->name)});
+  line.values.push_back({"class", in_quotes(identity_->robot_class)});
+  line.values.push_back({"subclass", in_quotes(identity_->subclass)});
+  if (battery_v_ > 0.0) line.values.push_back({"battery", fmt::format("{:.1f} V", battery_v_)});
+  if (packets_ > 1 && last_packet_s_ > first_packet_s_)
+    line.values.push_back(
+        {"packets", fmt::format("{:.1f} a second", (packets_ - 1) / (last_packet_s_ - first_packet_s_))});
+  line.values.push_back({"wrong checksums", std::to_string(reader_.damaged())});
+  if (packets_ > 0) line.values.push_back({"age", fmt::format("{:.2f} s", live::now_s() - last_packet_s_)});
+  if (reader_.damaged() > kMaxDamagedRatio * packets_ + 1.0)
+    line.problem = "many packets have a wrong checksum: is the cable sound, and does nothing else use the line?";
+  return {line};
+}
+
 bool Microcontroller::read_line() {
   pollfd ready{line_.get(), POLLIN, 0};
   if (::poll(&ready, 1, kWait_ms) <= 0) return true;
@@ -202,6 +222,9 @@ std::optional<std::vector<std::uint8_t>> Microcontroller::wait_for_packet(double
 Observation Microcontroller::observation_of(const Information& seen) {
   Observation observation;
   observation.stamp_s = live::now_s();
+  last_packet_s_ = observation.stamp_s;
+  if (packets_++ == 0) first_packet_s_ = last_packet_s_;
+  battery_v_ = seen.battery_v;
   observation.T_odom_robot = odometry_.pose_at(seen);
   if (config_.has_compass) observation.compass_rad = heading_rad(seen.compass, config_.compass_offset_rad);
   observation.bumped = seen.is_bumped || seen.is_stalled;
