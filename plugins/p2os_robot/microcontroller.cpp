@@ -40,19 +40,6 @@ std::vector<std::uint8_t> standing_bytes() {
   return bytes;
 }
 
-// In the guard, which keeps nothing open but beats and port. The microcontroller's own watchdog waits two seconds.
-void watch_port(int beats, int port, const std::vector<std::uint8_t>& stop, std::chrono::milliseconds silence) {
-  constexpr int kBeats = 0;
-  constexpr int kPort = 1;
-  const int copy = ::fcntl(port, F_DUPFD, kPort + 1);
-  ::dup2(beats, kBeats);
-  ::dup2(copy, kPort);
-  ::close_range(kPort + 1, ~0U, 0);
-  const auto write_stop = [&](double) { (void)!::write(kPort, stop.data(), stop.size()); };
-  live::watch_beats(kBeats, silence, write_stop);
-  write_stop(0.0);
-}
-
 // Text that ends with 0, from there on.
 std::string text_at(const std::vector<std::uint8_t>& data, std::size_t& at) {
   std::string text;
@@ -157,10 +144,11 @@ void Microcontroller::begin_session(const Identity& identity) {
   (void)send_stop();
   {
     const std::scoped_lock lock(guarding_);
+    // The microcontroller's own watchdog waits two seconds.
     guard_ =
         std::make_unique<live::GuardProcess>([port = line_.get(), stop = standing_bytes(),
                                               silence = std::chrono::milliseconds(std::lround(1e3 * config_.guard_s))](
-                                                 int beats) { watch_port(beats, port, stop, silence); });
+                                                 int beats) { live::write_in_silence(beats, port, stop, silence); });
   }
   if (units_.has_motor_switch) write(CommandPacket(Command::enable_motors, 1));
   write(CommandPacket(Command::sonar, 1));

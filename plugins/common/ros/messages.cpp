@@ -62,6 +62,7 @@ RangeReading reading_of(const Range& range, const SonarModel& sonar, int number,
 std::vector<RangeReading> readings_of(const Scan& scan, const LaserModel& laser, int first, double no_echo_from_m,
                                       bool is_upside_down) {
   std::vector<RangeReading> readings;
+  if (!std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad)) return readings;
   const double min_m = scan.min_m > 0.0 ? scan.min_m : laser.min_m;
   const double max_m = scan.max_m > min_m ? scan.max_m : laser.max_m;
   const int room = std::max(0, kMaxTransducers - first);

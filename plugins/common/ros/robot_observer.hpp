@@ -42,6 +42,7 @@ class RobotObserver {
   // From any thread: of the base's clock to now_s(); 0: not known.
   [[nodiscard]] double base_ahead_s() const { return base_ahead_s_; }
   [[nodiscard]] HeardTopics& heard() { return heard_; }
+  [[nodiscard]] const HeardTopics& heard() const { return heard_; }
 
  private:
   void mark(const std::string& topic, const Header& header, double arrived_s);

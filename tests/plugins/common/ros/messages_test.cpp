@@ -63,6 +63,8 @@ TEST(Messages, AScanHasTheAnglesOfTheMessageFromWhereTheFileSays) {
   EXPECT_EQ(readings[2].range_m, kInfinity);
   EXPECT_EQ(readings[2].sensor, 18);
   EXPECT_EQ(readings_of(scan, laser, kMaxTransducers - 1, 1000.0).size(), 1U) << "numbers end";
+  scan.angle_increment_rad = std::nan("");
+  EXPECT_TRUE(readings_of(scan, laser, 16, 1000.0).empty()) << "nobody knows where they look";
 }
 
 TEST(Messages, ACompassMaySayThatItIsNone) {
