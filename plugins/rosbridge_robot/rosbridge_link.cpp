@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "framework/live/steady_time.hpp"
+#include "maps/base/printable.hpp"
 #include "maps/base/spelling.hpp"
 #include "maps/base/text.hpp"
 #include "plugins/rosbridge_robot/json_messages.hpp"
@@ -185,7 +186,7 @@ void RosbridgeLink::take(const std::string& text, bool is_whole, std::vector<Obs
 // An error is about something that this program has asked for: the robot would not be seen, or not drive.
 void RosbridgeLink::take_status(const json& message) {
   const std::string level = text_in(message, "level");
-  const std::string said = in_quotes(text_in(message, "msg"));
+  const std::string said = printable_excerpt(text_in(message, "msg"));
   const std::string id = text_in(message, "id");
   const bool is_question = id == KnownTopics::kTopicsCall || id == KnownTopics::kListenersCall;
   if (level == "error" && !is_question) throw std::runtime_error("rosbridge says: " + said);
