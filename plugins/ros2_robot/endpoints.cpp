@@ -1,5 +1,6 @@
 #include "plugins/ros2_robot/endpoints.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace cairn::ros2_robot {
@@ -138,7 +139,9 @@ std::vector<Endpoint> Participant::others(const Entity& builtin) const {
     const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
     const bool is_alive = infos[i].instance_state == DDS_ALIVE_INSTANCE_STATE && infos[i].valid_data;
     if (!is_alive || std::equal(std::begin(own.v), std::end(own.v), std::begin(endpoint.participant_key.v))) continue;
-    all.push_back({ros_name_of(endpoint.topic_name), ros_type_of(endpoint.type_name), profile_of(endpoint.qos)});
+    Endpoint& found = all.emplace_back(
+        Endpoint{ros_name_of(endpoint.topic_name), ros_type_of(endpoint.type_name), profile_of(endpoint.qos), {}});
+    std::copy(std::begin(endpoint.participant_key.v), std::end(endpoint.participant_key.v), found.participant.begin());
   }
   if (count > 0) dds_return_loan(builtin.get(), samples, count);
   return all;

@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -50,6 +51,7 @@ struct Endpoint {
   std::string topic;  // as ROS names it: /scan
   std::string type;   // sensor_msgs/msg/LaserScan
   QosProfile profile;
+  std::array<unsigned char, 16> participant{};  // whose it is
 };
 
 // best_effort fits whatever is offered; reliable is for what is said once; latched is also what was written before the

@@ -204,7 +204,8 @@ void RosLink::check_publisher(dds_instance_handle_t publisher, double now_s) {
 std::vector<ConnectionPart> RosLink::parts() {
   if (!participant_) make_endpoints();
   const TopicReport report(*participant_, observer_.heard(), live::now_s());
-  std::vector<ConnectionPart> parts{report.of_network(fmt::format("ROS domain {}", config_.domain))};
+  std::vector<ConnectionPart> parts{
+      report.of_network(fmt::format("ROS domain {}", config_.domain), config_.command.topic)};
   parts.push_back(report.of_reader(odometry_, Importance::steady));
   for (std::size_t i = 0; i < config_.ranges.size(); ++i) {
     parts.push_back(report.of_reader(ranges_.readers()[i], Importance::steady));
@@ -218,7 +219,8 @@ std::vector<ConnectionPart> RosLink::parts() {
   if (static_frames_)
     parts.push_back(report.of_reader(
         static_frames_, config_.mounting == Mounting::frames ? Importance::said_rarely : Importance::optional));
-  parts.push_back(report.of_velocities(config_.command.topic, velocity_->twist(), velocity_->twist_stamped()));
+  parts.push_back(
+      report.of_velocities(config_.command.topic, velocity_->twist(), velocity_->twist_stamped(), guard_ != nullptr));
   return parts;
 }
 

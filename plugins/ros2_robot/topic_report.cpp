@@ -90,12 +90,16 @@ ConnectionPart TopicReport::of_reader(const Entity& reader, Importance importanc
   return part;
 }
 
-ConnectionPart TopicReport::of_velocities(const std::string& topic, const Entity& twist,
-                                          const Entity& twist_stamped) const {
+ConnectionPart TopicReport::of_velocities(const std::string& topic, const Entity& twist, const Entity& twist_stamped,
+                                          bool has_guard) const {
   const std::vector<Endpoint> listeners = those_of(subscribers_, topic);
   ConnectionPart part{
       topic, {{"heard by", listeners.empty() ? "nobody" : counted(listeners.size(), "subscriber")}}, {}};
   add_types_and_qualities(listeners, "wanted", part);
+  std::set<std::array<unsigned char, 16>> others;
+  for (const Endpoint& other : those_of(publishers_, topic)) others.insert(other.participant);
+  if (const std::size_t guards = has_guard ? 1 : 0; others.size() > guards)
+    part.values.push_back({"also published by", counted(others.size() - guards, "participant")});
   std::string misfit;
   for (const Entity* const writer : {&twist, &twist_stamped}) {
     if (!*writer) continue;
@@ -116,10 +120,10 @@ ConnectionPart TopicReport::of_velocities(const std::string& topic, const Entity
   return part;
 }
 
-ConnectionPart TopicReport::of_network(const std::string& name) const {
+ConnectionPart TopicReport::of_network(const std::string& name, const std::string& velocities) const {
   std::set<std::string> topics;
   for (const Endpoint& endpoint : publishers_)
-    if (endpoint.topic.starts_with('/')) topics.insert(endpoint.topic);
+    if (endpoint.topic.starts_with('/') && endpoint.topic != velocities) topics.insert(endpoint.topic);
   const std::ptrdiff_t listed = std::min(std::ssize(topics), kMaxListed);
   const std::vector<std::string> some(topics.begin(), std::next(topics.begin(), listed));
   ConnectionPart part{name, {{"published", topics.empty() ? "nothing" : joined(some)}}, {}};

@@ -20,11 +20,12 @@ class TopicReport {
 
   // Who publishes what the reader reads, and what has come.
   [[nodiscard]] ConnectionPart of_reader(const Entity& reader, Importance importance) const;
-  // Who listens to velocities: one of either writer or of both; the other is empty.
-  [[nodiscard]] ConnectionPart of_velocities(const std::string& topic, const Entity& twist,
-                                             const Entity& twist_stamped) const;
-  // Participants and topics of others.
-  [[nodiscard]] ConnectionPart of_network(const std::string& name) const;
+  // Who listens to velocities, and who else publishes them but the guard, if there is one. One of the writers may be
+  // empty.
+  [[nodiscard]] ConnectionPart of_velocities(const std::string& topic, const Entity& twist, const Entity& twist_stamped,
+                                             bool has_guard) const;
+  // What others publish, velocities left out.
+  [[nodiscard]] ConnectionPart of_network(const std::string& name, const std::string& velocities) const;
 
  private:
   const ros::HeardTopics& heard_;

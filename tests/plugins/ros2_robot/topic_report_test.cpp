@@ -159,6 +159,11 @@ TEST_F(TopicReports, SayWhoListensToVelocities) {
   EXPECT_EQ(heard.problem, "");
   EXPECT_EQ(value_of(heard, "heard by"), "1 subscriber");
   EXPECT_EQ(value_of(heard, "type"), "geometry_msgs/msg/TwistStamped");
+  EXPECT_EQ(value_of(heard, "also published by"), "");
+  const Entity joystick = robot_.participant().writer("/cmd_vel", geometry_msgs_msg_dds__Twist__desc);
+  const ConnectionPart driven_by_two = part_of(
+      *link, "/cmd_vel", [](const ConnectionPart& part) { return !value_of(part, "also published by").empty(); });
+  EXPECT_EQ(value_of(driven_by_two, "also published by"), "1 participant");
 }
 
 TEST_F(TopicReports, NameThePolicyByWhichABaseHearsNothing) {
