@@ -15,7 +15,7 @@ namespace cairn::ros2_robot {
 namespace {
 
 constexpr std::size_t kMaxName = 512;
-constexpr std::ptrdiff_t kMaxListed = 8;
+constexpr std::ptrdiff_t kMaxTopicsListed = 8;
 
 struct Own {
   std::string topic;
@@ -124,7 +124,7 @@ ConnectionPart TopicReport::of_network(const std::string& name, const std::strin
   std::set<std::string> topics;
   for (const Endpoint& endpoint : publishers_)
     if (endpoint.topic.starts_with('/') && endpoint.topic != velocities) topics.insert(endpoint.topic);
-  const std::ptrdiff_t listed = std::min(std::ssize(topics), kMaxListed);
+  const std::ptrdiff_t listed = std::min(std::ssize(topics), kMaxTopicsListed);
   const std::vector<std::string> some(topics.begin(), std::next(topics.begin(), listed));
   ConnectionPart part{name, {{"published", topics.empty() ? "nothing" : joined(some)}}, {}};
   if (listed < std::ssize(topics)) part.values.back().text += fmt::format(" and {} more", std::ssize(topics) - listed);

@@ -59,6 +59,11 @@ const json& list_at(const json& msg, const char* path, std::size_t most) {
   return value;
 }
 
+Point point_at(const json& msg, const std::string& path) {
+  const double x_m = number_at(msg, (path + "/x").c_str());
+  return {x_m, number_at(msg, (path + "/y").c_str())};
+}
+
 ros::Quaternion quaternion_at(const json& msg, const std::string& path) {
   const auto part = [&](const char* name) { return number_at(msg, (path + name).c_str()); };
   return {part("/x"), part("/y"), part("/z"), part("/w")};
@@ -76,8 +81,7 @@ ros::Header header_in(const json& msg) {
 }
 
 ros::Odometry odometry_in(const json& msg) {
-  return {header_in(msg), frame_at(msg, "/child_frame_id"),
-          Point(number_at(msg, "/pose/pose/position/x"), number_at(msg, "/pose/pose/position/y")),
+  return {header_in(msg), frame_at(msg, "/child_frame_id"), point_at(msg, "/pose/pose/position"),
           quaternion_at(msg, "/pose/pose/orientation")};
 }
 
@@ -100,8 +104,7 @@ ros::Scan scan_in(const json& msg, double null_m, std::vector<float>& ranges_m) 
 
 std::vector<Point> points_in(const json& msg) {
   std::vector<Point> points_m;
-  for (const json& point : list_at(msg, "/points", kMaxPoints))
-    points_m.emplace_back(number_at(point, "/x"), number_at(point, "/y"));
+  for (const json& point : list_at(msg, "/points", kMaxPoints)) points_m.push_back(point_at(point, ""));
   return points_m;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
@@ -225,7 +226,7 @@ void RosbridgeLink::beat() noexcept {
 
 bool RosbridgeLink::send_stop() noexcept {
   const int error = errno;
-  (void)!::write(stop_line_.get(), stop_frame_.data(), stop_frame_.size());
+  (void)::send(stop_line_.get(), stop_frame_.data(), stop_frame_.size(), MSG_NOSIGNAL);  // nothing: not connected
   errno = error;
   return true;
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr double kOtherTime_s = 1e7;  // a clock that is so far off is simulated, or was never set
 constexpr double kMaxBehind_s = 1.0;  // as readings are kept beside the odometry
 constexpr double kMaxAhead_s = 0.3;
-constexpr std::size_t kMaxFramesListed = 4;
+constexpr std::size_t kMaxFramesShown = 4;
 
 std::string clock_text(double ahead_s) {
   if (std::abs(ahead_s) > kOtherTime_s) return "simulated, or never set";
@@ -20,7 +20,7 @@ std::string clock_text(double ahead_s) {
 }
 
 std::string frames_text(const std::set<std::string>& frames) {
-  const auto listed = std::min(frames.size(), kMaxFramesListed);
+  const auto listed = std::min(frames.size(), kMaxFramesShown);
   return fmt::format("{}{}",
                      fmt::join(frames.begin(), std::next(frames.begin(), static_cast<std::ptrdiff_t>(listed)), " "),
                      frames.size() > listed ? fmt::format(" and {} more", frames.size() - listed) : "");

@@ -31,9 +31,10 @@ inline std::unique_ptr<live::LiveRobot> bridged(const Config& config) {
   return std::make_unique<live::LiveRobot>(link_to(config, bridged_robot()), config.stop_when, bridged_robot());
 }
 
-// Orders 0.2 m/s at each observation; what the last of them was.
+// Orders 0.2 m/s at each observation, for so long after the first; what the last of them was.
 inline SensorStep drive_bridged(live::LiveRobot& driven, double for_s) {
-  SensorStep step;
+  SensorStep step = driven.next({});
+  if (step.state != SensorState::observation) return step;
   for (const double begin_s = live::now_s(); live::now_s() - begin_s < for_s;) {
     step = driven.next({});
     if (step.state != SensorState::observation) return step;
