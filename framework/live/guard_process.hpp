@@ -1,8 +1,6 @@
 // A process of its own that stops the wheels when this one cannot: killed, stopped by a signal, or hanging as a whole.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -31,7 +29,7 @@ class GuardProcess {
 
  private:
   Descriptor beats_;
-  pid_t process_ = -1;
+  int process_ = -1;
   std::atomic<bool> is_there_{true};
 };
 
