@@ -22,7 +22,7 @@ namespace cairn::live {
 namespace {
 
 constexpr int kConnectWithin_ms = 200;
-constexpr int kBacklog = 8;
+constexpr int kBacklog = 64;
 
 union Name {
   sockaddr any;

@@ -146,8 +146,8 @@ inline constexpr double kMaxCoordinate = 1e6;  // of a box or a transform, in me
 struct MergeCommand {
   std::filesystem::path a;
   std::filesystem::path b;
-  std::string transform;  // x,y,deg: where b's frame lies in a's; empty: it is found out
-  double near_m = 0.4;    // landmarks of one category this near to each other are one
+  std::optional<std::string> transform;  // x,y,deg: where b's frame lies in a's; none: it is found out
+  double near_m = 0.4;                   // landmarks of one category this near to each other are one
   std::filesystem::path out;
 };
 int map_merge(const MergeCommand& command, const CommonOptions& common);

@@ -61,10 +61,10 @@ struct Laid {
 };
 
 std::optional<Laid> laid_by(const MergeCommand& command, const SavedMap& a, const SavedMap& b, std::string& reason) {
-  if (!command.transform.empty()) {
+  if (command.transform) {
     const std::vector<double> given =
-        number_list(command.transform, "x,y,deg", "map merge: --transform", kMaxCoordinate);
-    return Laid{{given[0], given[1], wrap_angle(radians(given[2]))}, {}, command.transform};
+        number_list(*command.transform, "x,y,deg", "map merge: --transform", kMaxCoordinate);
+    return Laid{{given[0], given[1], wrap_angle(radians(given[2]))}, {}, *command.transform};
   }
   AlignmentRules rules;
   rules.near_m = std::max(command.near_m, 0.05);

@@ -81,8 +81,9 @@ PlanServer::~PlanServer() {
 void PlanServer::run(const std::atomic<bool>& end) {
   while (!end) {
     pollfd ready{listening_.get(), POLLIN, 0};
-    if (::poll(&ready, 1, kLookEvery_ms) > 0) accept_client();
+    const bool is_called = ::poll(&ready, 1, kLookEvery_ms) > 0;
     std::erase_if(clients_, [](const Client& client) { return client.is_done.load(); });
+    if (is_called) accept_client();
   }
   is_ending_ = true;
   places_.wake();

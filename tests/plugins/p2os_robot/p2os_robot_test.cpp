@@ -113,6 +113,7 @@ TEST_F(P2osRobot, StandsWhenItIsDestroyed) {
   const TimeToStand time("the module is unloaded");
   driven.reset();
   EXPECT_TRUE(time.is_short(stands()));
+  for (int i = 0; i < 100 && pioneer.is_in_session(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   EXPECT_FALSE(pioneer.is_in_session());
 }
 

@@ -68,7 +68,7 @@ TEST_F(MapEdit, MergeFindsOutWhereTheSecondMapLiesAndCountsNothingTwice) {
             merged.grid.log_odds(merged.grid.cell_at({3.0, 1.0})));
   save("other.cairn", drawn_map({"..##", "...#"}, {0.0, 0.0}));
   done({"merge", file("m.cairn"), file("other.cairn"), "--transform", "0,0,0", "-o", file("more.cairn")});
-  EXPECT_THAT(refused({"merge", file("more.cairn"), file("m.cairn"), "--transform", "0,0,0", "-o", file("x.cairn")}),
+  EXPECT_THAT(refused({"merge", file("m.cairn"), file("more.cairn"), "--transform", "0,0,0", "-o", file("x.cairn")}),
               HasSubstr("both hold the evidence of one map"));
 }
 
