@@ -45,8 +45,8 @@ TEST(LiveRecording, OfARobotBehindRosbridgePlayedBackGivesTheSameMapBitForBit) {
   const rosbridge_robot::RosbridgeServer server;
   const auto mission = doctor_mission("rosbridge_recording", bridged_sensor(server));
   const auto folder = mission.parent_path();
-  const Finished first = run_cairn({"run", mission.string(), "--set", "steps=[wait: 3]", "--set",
-                                    "record=recorded.log", "--out", folder.string()});
+  const Finished first = run_cairn(
+      {"run", mission.string(), "--set", "steps=[wait: 3]", "--set", "record=recorded.log", "--out", folder.string()});
   ASSERT_EQ(first.exit_status, 0) << first.out << first.err;
   write_text(folder / "replay.yaml",
              "mission: replay\nrobot: robot.yaml\nsensor: {plugin: carmen_log, file: recorded.log}\n"
