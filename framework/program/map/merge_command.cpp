@@ -125,6 +125,7 @@ int map_merge(const MergeCommand& command, const CommonOptions& common) {
   std::string reason;
   const std::optional<Laid> laid = laid_by(command, a, b, reason);
   if (!laid) {
+    if (common.json) std::cout << nlohmann::ordered_json{{"map", nullptr}, {"reason", reason}} << "\n";
     std::cerr << both << " do not show where one lies in the other: " << reason << ". Give --transform x,y,deg\n";
     return kExitNotSolved;
   }

@@ -74,8 +74,10 @@ TEST_F(MapEdit, MergeFindsOutWhereTheSecondMapLiesAndCountsNothingTwice) {
 
 TEST_F(MapEdit, MergeSaysWhyItCannotFindOut) {
   save("west.cairn", room(0, 110, false));
-  const Finished tried = run_cairn({"map", "merge", file("west.cairn"), file("b.cairn"), "-o", file("m.cairn")});
+  const Finished tried =
+      run_cairn({"map", "merge", file("west.cairn"), file("b.cairn"), "-o", file("m.cairn"), "--json"});
   EXPECT_EQ(tried.exit_status, 1);
+  EXPECT_NE(json::parse(tried.out)["reason"], "");
   EXPECT_THAT(tried.err, HasSubstr("do not show where one lies in the other: "));
   EXPECT_FALSE(std::filesystem::exists(file("m.cairn")));
 }
