@@ -11,7 +11,7 @@
 
 #include "framework/live/steady_time.hpp"
 #include "maps/base/text.hpp"
-#include "plugins/ros2_robot/velocity_topic.hpp"
+#include "plugins/ros2_robot/dds/velocity_topic.hpp"
 
 namespace cairn::ros2_robot {
 namespace {

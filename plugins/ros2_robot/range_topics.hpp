@@ -5,7 +5,7 @@
 
 #include "plugins/common/ros/robot_observer.hpp"
 #include "plugins/ros2_robot/config.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 
 namespace cairn::ros2_robot {
 

@@ -12,9 +12,9 @@
 
 #include "framework/live/steady_time.hpp"
 #include "maps/base/spelling.hpp"
+#include "plugins/ros2_robot/dds/topic_report.hpp"
 #include "plugins/ros2_robot/guard.hpp"
 #include "plugins/ros2_robot/settings_check.hpp"
-#include "plugins/ros2_robot/topic_report.hpp"
 
 namespace cairn::ros2_robot {
 namespace {

@@ -13,11 +13,11 @@
 #include "framework/live/guard_process.hpp"
 #include "plugins/common/ros/robot_observer.hpp"
 #include "plugins/ros2_robot/config.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
+#include "plugins/ros2_robot/dds/velocity_topic.hpp"
 #include "plugins/ros2_robot/display_topics.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
 #include "plugins/ros2_robot/messages.hpp"
 #include "plugins/ros2_robot/range_topics.hpp"
-#include "plugins/ros2_robot/velocity_topic.hpp"
 
 namespace cairn::ros2_robot {
 

@@ -13,7 +13,7 @@
 
 #include "framework/live/live_robot.hpp"
 #include "framework/live/steady_time.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 #include "plugins/ros2_robot/messages.hpp"
 #include "tests/plugins/common/time_to_stand.hpp"
 

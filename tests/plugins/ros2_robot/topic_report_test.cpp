@@ -1,5 +1,5 @@
 // What is said of the topics that a robot is connected by, with all that can be wrong with them.
-#include "plugins/ros2_robot/topic_report.hpp"
+#include "plugins/ros2_robot/dds/topic_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

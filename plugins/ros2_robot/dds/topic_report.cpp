@@ -1,4 +1,4 @@
-#include "plugins/ros2_robot/topic_report.hpp"
+#include "plugins/ros2_robot/dds/topic_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugins/ros2_robot/qos_profile.hpp"
+#include "plugins/ros2_robot/dds/qos_profile.hpp"
 
 namespace cairn::ros2_robot {
 

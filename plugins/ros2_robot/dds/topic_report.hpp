@@ -5,7 +5,7 @@
 
 #include "framework/contracts/connection_report.hpp"
 #include "plugins/common/ros/heard_topics.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 
 namespace cairn::ros2_robot {
 

@@ -1,4 +1,4 @@
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 
 #include <algorithm>
 #include <stdexcept>

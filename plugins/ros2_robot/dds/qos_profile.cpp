@@ -1,4 +1,4 @@
-#include "plugins/ros2_robot/qos_profile.hpp"
+#include "plugins/ros2_robot/dds/qos_profile.hpp"
 
 #include <fmt/format.h>
 
