@@ -126,7 +126,8 @@ std::optional<Observation> Subscriptions::take(const std::string& name, const js
       topic.take(msg, arrived_s);
     } catch (const std::runtime_error& error) {
       const std::string why = error.what();
-      throw std::runtime_error(why.find(name) == std::string::npos ? name + ": " + why : why);
+      if (why.find(name) != std::string::npos) throw;
+      throw std::runtime_error(fmt::format("{}: {}", name, why));
     }
   }
   return std::exchange(observed_, std::nullopt);

@@ -26,6 +26,7 @@ struct Own {
 // "1 in 3" of the same are one word.
 std::string counted_texts(const std::map<std::string, int>& counts) {
   std::vector<std::string> texts;
+  texts.reserve(counts.size());
   for (const auto& [text, count] : counts) texts.push_back(count == 1 ? text : fmt::format("{} x {}", count, text));
   return joined(texts, "; ");
 }
