@@ -1,5 +1,7 @@
 #include "plugins/rosbridge_robot/subscriptions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
