@@ -1,5 +1,6 @@
 #include "framework/live/guard_process.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -16,6 +17,8 @@ namespace cairn::live {
 namespace {
 
 constexpr int kAgainAfter_ms = 50;
+constexpr int kLastTimes = 5;
+constexpr int kEndedWithin_ms = 10;  // a process that has been killed
 
 }  // namespace
 
@@ -44,6 +47,21 @@ GuardProcess::~GuardProcess() {
 
 void GuardProcess::beat(double note) noexcept {
   if (::send(beats_.get(), &note, sizeof note, MSG_NOSIGNAL) < 0 && errno == EPIPE) is_there_ = false;
+}
+
+void write_in_silence(int beats, int line, const std::vector<std::uint8_t>& bytes, std::chrono::milliseconds silence) {
+  constexpr int kBeats = 0;
+  constexpr int kLine = 1;
+  const pid_t parent = ::getppid();
+  const int copy = ::fcntl(line, F_DUPFD, kLine + 1);
+  ::dup2(beats, kBeats);
+  ::dup2(copy, kLine);
+  ::close_range(kLine + 1, ~0U, 0);
+  const auto write_bytes = [&](double) { (void)!::write(kLine, bytes.data(), bytes.size()); };
+  watch_beats(kBeats, silence, write_bytes);
+  write_bytes(0.0);
+  ::poll(nullptr, 0, kEndedWithin_ms);
+  for (int i = 0; i < kLastTimes && ::getppid() != parent; ++i, ::poll(nullptr, 0, kAgainAfter_ms)) write_bytes(0.0);
 }
 
 void watch_beats(int beats, std::chrono::milliseconds silence, const std::function<void(double note)>& stop) {

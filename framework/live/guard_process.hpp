@@ -1,11 +1,11 @@
 // A process of its own that stops the wheels when this one cannot: killed, stopped by a signal, or hanging as a whole.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "framework/live/descriptor.hpp"
 
@@ -29,9 +29,14 @@ class GuardProcess {
 
  private:
   Descriptor beats_;
-  pid_t process_ = -1;
+  int process_ = -1;
   std::atomic<bool> is_there_{true};
 };
+
+// In the new process, which keeps nothing else open: writes the bytes to a line when no beat has come for so long,
+// again every 50 ms until one comes. Once when the process that beats needs it no longer, and for 0.25 s when that was
+// killed: what it sent last may take another way, and come later.
+void write_in_silence(int beats, int line, const std::vector<std::uint8_t>& bytes, std::chrono::milliseconds silence);
 
 // Calls stop, with the last note, when no beat has come for so long, and again every 50 ms until one comes. Returns
 // when the process that beats has ended.

@@ -22,7 +22,7 @@ namespace cairn::live {
 namespace {
 
 constexpr int kConnectWithin_ms = 200;
-constexpr int kBacklog = 8;
+constexpr int kBacklog = 64;
 
 union Name {
   sockaddr any;
@@ -65,7 +65,7 @@ void remove_stale_socket(const Address& address) {
   std::error_code none;
   if (!std::filesystem::is_socket(address.socket, none)) return;
   std::string error;
-  if (connect_to(address, error).get() >= 0) fail(address, "another base listens there");
+  if (connect_to(address, error).get() >= 0) fail(address, "another process listens there");
   std::filesystem::remove(address.socket, none);
 }
 
@@ -95,7 +95,7 @@ Descriptor listen_at(const Address& address) {
   Descriptor made = new_socket(address);
   const int on = 1;
   if (address.socket.empty()) {
-    if (ntohl(name.internet.sin_addr.s_addr) >> 24U != 127U) fail(address, "a base listens on this computer only");
+    if (ntohl(name.internet.sin_addr.s_addr) >> 24U != 127U) fail(address, "it listens on this computer only");
     ::setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   } else {
     remove_stale_socket(address);

@@ -1,5 +1,5 @@
-// Connections between a base and its client: a Unix-domain socket that only the user may connect to, or TCP. Lines come
-// and go without waiting.
+// Connections of a base with its client, or of a server of plans with those who ask: a Unix-domain socket that only the
+// user may connect to, or TCP. Lines come and go without waiting.
 #pragma once
 
 #include <optional>

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "framework/config/fields.hpp"
+#include "framework/contracts/connection_report.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
 #include "framework/contracts/stop_report.hpp"
@@ -31,7 +32,7 @@ struct LiveRules {
   static void describe(Fields<LiveRules>& fields);
 };
 
-class LiveRobot final : public Sensor, public Drive, public StopReport {
+class LiveRobot final : public Sensor, public Drive, public StopReport, public ConnectionReport {
  public:
   // Connects when it is used first.
   LiveRobot(std::unique_ptr<BaseLink> link, const LiveRules& rules, const RobotModel& robot);
@@ -44,6 +45,7 @@ class LiveRobot final : public Sensor, public Drive, public StopReport {
   Drive* drive() override { return this; }
   [[nodiscard]] std::optional<Pose2> start() const override { return link_->start(); }
   MissionDisplay* display() override { return link_->display(); }
+  std::vector<ConnectionPart> connection_parts() override { return link_->parts(); }
 
   // Throws std::invalid_argument when not finite.
   void command(const Twist& twist, double valid_for_s) override;

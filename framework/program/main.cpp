@@ -77,7 +77,7 @@ void add_doctor(CLI::App& app, CommandLine& line) {
 
 void add_plan(CLI::App& app, CommandLine& line) {
   const auto [sub, c] = add_command(app, line, plan, "plan", "Ask a saved map for a route");
-  sub->add_option("MAP", c->map, "saved map (*.cairn)")->required();
+  sub->add_option("MAP", c->map, "saved map (*.cairn); with --serve also a folder of them")->required();
   sub->add_option("--from", c->question.from, "x,y | x,y,angle_deg | L12 | a name | nearest CATEGORY");
   sub->add_option("--to", c->question.to, "as --from");
   add_repeatable(sub, "--via", c->question.via, "place to pass on the way (may be repeated; in this order)");
@@ -93,6 +93,9 @@ void add_plan(CLI::App& app, CommandLine& line) {
   sub->add_flag("--trajectory", c->question.trajectory, "say when the robot is where, within its speeds");
   sub->add_option("--queries", c->queries,
                   "file of queries, one {\"id\",\"from\",\"to\"} a line, or - (docs/graphs.md)");
+  sub->add_option("--serve", c->serve,
+                  "answer queries, a line each, at this path of a socket or HOST:PORT of this computer, until Ctrl-C "
+                  "(docs/graphs.md)");
   sub->add_option("--jobs", c->jobs, "answer so many queries at once (without it, as many as there are cores)")
       ->check(CLI::Range(1, 256));
   sub->add_option("--planner", c->planner, "planner module")->capture_default_str();

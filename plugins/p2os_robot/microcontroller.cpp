@@ -28,6 +28,7 @@ constexpr int kTries = 3;
 constexpr double kMaxStep_m = 0.5;  // between two packets
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCompassStep_rad = radians(2.0);
+constexpr double kMaxDamagedRatio = 0.02;  // of packets
 
 // Velocity and turn velocity 0.
 std::vector<std::uint8_t> standing_bytes() {
@@ -37,19 +38,6 @@ std::vector<std::uint8_t> standing_bytes() {
     bytes.insert(bytes.end(), packet.bytes().begin(), packet.bytes().end());
   }
   return bytes;
-}
-
-// In the guard, which keeps nothing open but beats and port. The microcontroller's own watchdog waits two seconds.
-void watch_port(int beats, int port, const std::vector<std::uint8_t>& stop, std::chrono::milliseconds silence) {
-  constexpr int kBeats = 0;
-  constexpr int kPort = 1;
-  const int copy = ::fcntl(port, F_DUPFD, kPort + 1);
-  ::dup2(beats, kBeats);
-  ::dup2(copy, kPort);
-  ::close_range(kPort + 1, ~0U, 0);
-  const auto write_stop = [&](double) { (void)!::write(kPort, stop.data(), stop.size()); };
-  live::watch_beats(kBeats, silence, write_stop);
-  write_stop(0.0);
 }
 
 // Text that ends with 0, from there on.
@@ -150,14 +138,17 @@ void Microcontroller::begin_session(const Identity& identity) {
         fmt::join(known_subclasses(), ", ")));
   units_ = *units;
   odometry_.begin_session(units_);
+  identity_ = identity;
+  packets_ = 0;
   write(CommandPacket(Command::open));
   (void)send_stop();
   {
     const std::scoped_lock lock(guarding_);
+    // The microcontroller's own watchdog waits two seconds.
     guard_ =
         std::make_unique<live::GuardProcess>([port = line_.get(), stop = standing_bytes(),
                                               silence = std::chrono::milliseconds(std::lround(1e3 * config_.guard_s))](
-                                                 int beats) { watch_port(beats, port, stop, silence); });
+                                                 int beats) { live::write_in_silence(beats, port, stop, silence); });
   }
   if (units_.has_motor_switch) write(CommandPacket(Command::enable_motors, 1));
   write(CommandPacket(Command::sonar, 1));
@@ -178,6 +169,23 @@ bool Microcontroller::receive(std::vector<Observation>& seen) {
   while (const auto data = reader_.next())
     if (const auto information = information_of(*data)) seen.push_back(observation_of(*information));
   return is_there;
+}
+
+std::vector<ConnectionPart> Microcontroller::parts() {
+  ConnectionPart line{config_.device.string(), {{"baud", std::to_string(config_.baud)}}, {}};
+  if (!identity_) return {line};
+  line.values.push_back({"robot", in_quotes(identity_->name)});
+  line.values.push_back({"class", in_quotes(identity_->robot_class)});
+  line.values.push_back({"subclass", in_quotes(identity_->subclass)});
+  if (battery_v_ > 0.0) line.values.push_back({"battery", fmt::format("{:.1f} V", battery_v_)});
+  if (packets_ > 1 && last_packet_s_ > first_packet_s_)
+    line.values.push_back(
+        {"packets", fmt::format("{:.1f} a second", (packets_ - 1) / (last_packet_s_ - first_packet_s_))});
+  line.values.push_back({"wrong checksums", std::to_string(reader_.damaged())});
+  if (packets_ > 0) line.values.push_back({"age", fmt::format("{:.2f} s", live::now_s() - last_packet_s_)});
+  if (reader_.damaged() > kMaxDamagedRatio * packets_ + 1.0)
+    line.problem = "many packets have a wrong checksum: is the cable sound, and does nothing else use the line?";
+  return {line};
 }
 
 bool Microcontroller::read_line() {
@@ -202,6 +210,9 @@ std::optional<std::vector<std::uint8_t>> Microcontroller::wait_for_packet(double
 Observation Microcontroller::observation_of(const Information& seen) {
   Observation observation;
   observation.stamp_s = live::now_s();
+  last_packet_s_ = observation.stamp_s;
+  if (packets_++ == 0) first_packet_s_ = last_packet_s_;
+  battery_v_ = seen.battery_v;
   observation.T_odom_robot = odometry_.pose_at(seen);
   if (config_.has_compass) observation.compass_rad = heading_rad(seen.compass, config_.compass_offset_rad);
   observation.bumped = seen.is_bumped || seen.is_stalled;

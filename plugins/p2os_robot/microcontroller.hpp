@@ -34,6 +34,7 @@ class Microcontroller final : public live::BaseLink {
   [[nodiscard]] bool connect(const Budget& budget, std::string& why) override;
   void disconnect() override;
   [[nodiscard]] bool receive(std::vector<Observation>& seen) override;
+  [[nodiscard]] std::vector<ConnectionPart> parts() override;
   void send(const Twist& twist) noexcept override;
   void send_pulse() noexcept override;
   void beat() noexcept override;
@@ -59,6 +60,12 @@ class Microcontroller final : public live::BaseLink {
   PacketReader reader_;
   Units units_;
   CountedOdometry odometry_;
+  // What has been heard in this session:
+  std::optional<Identity> identity_;
+  int packets_ = 0;
+  double first_packet_s_ = 0.0;
+  double last_packet_s_ = 0.0;
+  double battery_v_ = 0.0;
 };
 
 }  // namespace cairn::p2os_robot

@@ -7,7 +7,7 @@
 
 #include "framework/contracts/mission_display.hpp"
 #include "plugins/ros2_robot/config.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 #include "plugins/ros2_robot/shown_messages.hpp"
 
 namespace cairn::ros2_robot {

@@ -11,7 +11,7 @@
 
 #include "framework/live/steady_time.hpp"
 #include "maps/base/text.hpp"
-#include "plugins/ros2_robot/velocity_topic.hpp"
+#include "plugins/ros2_robot/dds/velocity_topic.hpp"
 
 namespace cairn::ros2_robot {
 namespace {
@@ -68,6 +68,7 @@ std::unique_ptr<live::GuardProcess> guard_of(const GuardOrder& order, const std:
     throw std::runtime_error(fmt::format("{}, which guards the wheels, is no program", program.string()));
   std::vector<std::string> arguments = arguments_of(order, program.string());
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   return std::make_unique<live::GuardProcess>([&](int beats) { become(program.c_str(), pointers.data(), beats); });

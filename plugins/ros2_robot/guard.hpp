@@ -8,7 +8,7 @@
 
 #include "framework/live/guard_process.hpp"
 #include "plugins/ros2_robot/config.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 
 namespace cairn::ros2_robot {
 

@@ -12,6 +12,7 @@
 
 #include "framework/live/steady_time.hpp"
 #include "maps/base/spelling.hpp"
+#include "plugins/ros2_robot/dds/topic_report.hpp"
 #include "plugins/ros2_robot/guard.hpp"
 #include "plugins/ros2_robot/settings_check.hpp"
 
@@ -35,9 +36,8 @@ RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& bu
       robot_(robot),
       budget_(budget),
       guard_program_(std::move(guard)),
-      ranges_(config_, robot_),
-      places_(config),
-      continuity_(robot_),
+      ranges_(config_),
+      observer_(config_, robot_),
       display_(config_.show, config_.goal) {
   check_settings(config, robot);
 }
@@ -74,7 +74,7 @@ bool RosLink::connect(const Budget& budget, std::string& why) {
     dds_subscription_matched_status_t matched{};
     (void)dds_get_subscription_matched_status(odometry_.get(), &matched);
     if (matched.current_count > 0) {
-      continuity_.interrupt();
+      observer_.interrupt();
       return true;
     }
     std::this_thread::sleep_for(kLookEvery);
@@ -85,7 +85,7 @@ bool RosLink::connect(const Budget& budget, std::string& why) {
 
 // Nothing is deleted: who was there may come back, and discovery takes seconds.
 void RosLink::disconnect() {
-  ranges_.clear();
+  observer_.forget_readings();
 }
 
 void RosLink::make_endpoints() {
@@ -101,7 +101,6 @@ void RosLink::make_endpoints() {
     static_frames_ = participant_->reader(config_.static_frames, tf2_msgs_msg_dds__TFMessage__desc, Reading::latched);
   for (const std::string& bumper : config_.bumpers)
     bumpers_.push_back(participant_->reader(bumper, std_msgs_msg_dds__Bool__desc));
-  bumped_.assign(bumpers_.size(), 0);
   if (!config_.battery.empty())
     battery_ = participant_->reader(config_.battery, sensor_msgs_msg_dds__BatteryState__desc);
   if (!config_.emergency.empty()) emergency_ = participant_->reader(config_.emergency, std_msgs_msg_dds__Bool__desc);
@@ -142,9 +141,8 @@ bool RosLink::receive(std::vector<Observation>& seen) {
   velocity_->look_who_listens(live::now_s());
   const auto until = std::chrono::steady_clock::now() + kReceiveWithin;
   do {
-    if (static_frames_)
-      take_all<TFMessage>(static_frames_.get(), [this](const TFMessage& frames) { places_.add(frames); });
-    ranges_.take(places_);
+    take_frames();
+    ranges_.take(observer_);
     take_others();
     take_odometry(seen);
     if (!seen.empty()) return true;
@@ -153,27 +151,44 @@ bool RosLink::receive(std::vector<Observation>& seen) {
   return true;
 }
 
+void RosLink::take_frames() {
+  if (!static_frames_) return;
+  take_all<TFMessage>(static_frames_.get(), [this](const TFMessage& frames) {
+    observer_.heard().add(config_.static_frames, live::now_s());
+    for (std::uint32_t i = 0; i < frames.transforms._length; ++i) {
+      const auto& [header, child, transform] = frames.transforms._buffer[i];
+      const auto& [t, r] = transform;
+      observer_.take_frame(header.frame_id, child, {t.x, t.y, t.z}, {r.w, r.x, r.y, r.z});
+    }
+  });
+}
+
 void RosLink::take_others() {
+  const double arrived_s = live::now_s();
   const auto take_compass = [&](const auto& message) {
-    compass_rad_ = compass_rad(message, config_.compass.offset_rad);
+    observer_.take_compass(header_of(message.header), ros::compass_rad(message_of(message), config_.compass.offset_rad),
+                           arrived_s);
   };
   if (compass_ && config_.compass.kind == CompassKind::imu) take_all<Imu>(compass_.get(), take_compass);
   if (compass_ && config_.compass.kind == CompassKind::magnetic_field)
     take_all<MagneticField>(compass_.get(), take_compass);
   for (std::size_t i = 0; i < bumpers_.size(); ++i)
-    take_all<Bool>(bumpers_[i].get(), [&](const Bool& bumper) { bumped_[i] = bumper.data ? 1 : 0; });
+    take_all<Bool>(bumpers_[i].get(), [&](const Bool& bumper) { observer_.take_bumper(i, bumper.data, arrived_s); });
   if (battery_)
-    take_all<BatteryState>(battery_.get(),
-                           [&](const BatteryState& battery) { battery_ratio_ = battery_ratio(battery); });
-  if (emergency_) take_all<Bool>(emergency_.get(), [&](const Bool& stop) { is_emergency_ = stop.data; });
+    take_all<BatteryState>(battery_.get(), [&](const BatteryState& battery) {
+      observer_.take_battery(header_of(battery.header), battery.percentage, arrived_s);
+    });
+  if (emergency_)
+    take_all<Bool>(emergency_.get(), [&](const Bool& stop) { observer_.take_emergency(stop.data, arrived_s); });
 }
 
 void RosLink::take_odometry(std::vector<Observation>& seen) {
   const double arrived_s = live::now_s();
   take_all_from<Odometry>(odometry_.get(), [&](const Odometry& odometry, dds_instance_handle_t publisher) {
     check_publisher(publisher, arrived_s);
-    places_.found_base(odometry.child_frame_id);
-    observe(odometry, arrived_s, seen);
+    const auto pose = pose_of(odometry.pose.pose);
+    if (pose) display_.observed(odometry.header, *pose);
+    if (auto observation = observer_.take(message_of(odometry), arrived_s)) seen.push_back(std::move(*observation));
   });
 }
 
@@ -186,30 +201,36 @@ void RosLink::check_publisher(dds_instance_handle_t publisher, double now_s) {
   publisher_changed_s_ = now_s;
 }
 
-// Each reading as seen from where the robot is now.
-void RosLink::observe(const Odometry& odometry, double arrived_s, std::vector<Observation>& seen) {
-  const std::optional<Pose2> pose = pose_of(odometry);
-  if (!pose) return;
-  Observation observation;
-  observation.stamp_s = stamp_s(config_, odometry.header, arrived_s);
-  observation.T_odom_robot = *pose;
-  observation.compass_rad = std::exchange(compass_rad_, std::nullopt);
-  observation.battery_ratio = battery_ratio_;
-  observation.bumped = std::ranges::find(bumped_, 1) != bumped_.end();
-  base_ahead_s_ = seconds_of(odometry.header.stamp) - arrived_s;
-  poses_.add(observation.stamp_s, *pose);
-  display_.observed(odometry.header, *pose);
-  observation.ranges = ranges_.seen_from(observation.stamp_s, *pose, poses_);
-  seen.push_back(continuity_.continued(std::move(observation), arrived_s));
+std::vector<ConnectionPart> RosLink::parts() {
+  if (!participant_) make_endpoints();
+  const TopicReport report(*participant_, observer_.heard(), live::now_s());
+  std::vector<ConnectionPart> parts{
+      report.of_network(fmt::format("ROS domain {}", config_.domain), config_.command.topic)};
+  parts.push_back(report.of_reader(odometry_, Importance::steady));
+  for (std::size_t i = 0; i < config_.ranges.size(); ++i) {
+    parts.push_back(report.of_reader(ranges_.readers()[i], Importance::steady));
+    if (parts.back().problem.empty() && config_.stamp == Stamp::header)
+      parts.back().problem = observer_.heard().clocks_apart(config_.ranges[i].topic, config_.odometry);
+  }
+  if (compass_) parts.push_back(report.of_reader(compass_, Importance::steady));
+  if (battery_) parts.push_back(report.of_reader(battery_, Importance::said_rarely));
+  for (const Entity& bumper : bumpers_) parts.push_back(report.of_reader(bumper, Importance::said_rarely));
+  if (emergency_) parts.push_back(report.of_reader(emergency_, Importance::said_rarely));
+  if (static_frames_)
+    parts.push_back(report.of_reader(
+        static_frames_, config_.mounting == Mounting::frames ? Importance::said_rarely : Importance::optional));
+  parts.push_back(
+      report.of_velocities(config_.command.topic, velocity_->twist(), velocity_->twist_stamped(), guard_ != nullptr));
+  return parts;
 }
 
 void RosLink::send(const Twist& wanted) noexcept {
-  velocity_->send(is_emergency_ ? Twist{} : wanted, base_ahead_s_);
+  velocity_->send(observer_.is_emergency() ? Twist{} : wanted, observer_.base_ahead_s());
 }
 
 void RosLink::beat() noexcept {
   const std::unique_lock lock(guarding_, std::try_to_lock);
-  if (lock.owns_lock() && guard_) guard_->beat(base_ahead_s_);
+  if (lock.owns_lock() && guard_) guard_->beat(observer_.base_ahead_s());
 }
 
 }  // namespace cairn::ros2_robot

@@ -1,7 +1,6 @@
 // A robot on a ROS 2 network.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -11,16 +10,14 @@
 
 #include "framework/contracts/robot_model.hpp"
 #include "framework/live/base_link.hpp"
-#include "framework/live/continuity.hpp"
 #include "framework/live/guard_process.hpp"
+#include "plugins/common/ros/robot_observer.hpp"
 #include "plugins/ros2_robot/config.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
+#include "plugins/ros2_robot/dds/velocity_topic.hpp"
 #include "plugins/ros2_robot/display_topics.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
 #include "plugins/ros2_robot/messages.hpp"
-#include "plugins/ros2_robot/pose_history.hpp"
 #include "plugins/ros2_robot/range_topics.hpp"
-#include "plugins/ros2_robot/sensor_places.hpp"
-#include "plugins/ros2_robot/velocity_topic.hpp"
 
 namespace cairn::ros2_robot {
 
@@ -38,6 +35,7 @@ class RosLink final : public live::BaseLink {
   // Waits for it where the settings say so.
   [[nodiscard]] std::optional<Pose2> start() override;
   [[nodiscard]] MissionDisplay* display() override { return &display_; }
+  [[nodiscard]] std::vector<ConnectionPart> parts() override;
   void send(const Twist& twist) noexcept override;
   void send_pulse() noexcept override {}
   void beat() noexcept override;
@@ -47,14 +45,15 @@ class RosLink final : public live::BaseLink {
 
  private:
   void make_endpoints();
+  void take_frames();
   void take_others();
   void take_odometry(std::vector<Observation>& seen);
-  void observe(const Odometry& odometry, double arrived_s, std::vector<Observation>& seen);
   // Makes one when there is none any more.
   void make_guard();
   [[nodiscard]] std::string nobody_there() const;
   // Throws std::runtime_error when two send the odometry by turns.
   void check_publisher(dds_instance_handle_t publisher, double now_s);
+
   Config config_;
   RobotModel robot_;
   Budget budget_;
@@ -70,17 +69,10 @@ class RosLink final : public live::BaseLink {
   std::optional<VelocityTopic> velocity_;
   std::unique_ptr<live::GuardProcess> guard_;
   std::mutex guarding_;
-  std::atomic<bool> is_emergency_{false};
-  std::atomic<double> base_ahead_s_{0.0};  // of the base's clock to this computer's steady one; 0: not known
-  dds_instance_handle_t publisher_ = 0;    // of the odometry
+  dds_instance_handle_t publisher_ = 0;  // of the odometry
   dds_instance_handle_t publisher_before_ = 0;
   double publisher_changed_s_ = 0.0;
-  std::optional<double> compass_rad_;
-  std::optional<double> battery_ratio_;
-  std::vector<char> bumped_;  // each bumper's last word
-  SensorPlaces places_;
-  PoseHistory poses_;
-  live::Continuity continuity_;
+  ros::RobotObserver observer_;
   DisplayTopics display_;
 };
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -134,6 +136,23 @@ Finished run_cairn(const std::vector<std::string>& arguments) {
 }
 Finished run_cairn(const std::vector<std::string>& arguments, const Circumstances& circumstances) {
   return start(arguments, false, circumstances);
+}
+
+std::string answer_to(const std::filesystem::path& socket_file, const std::string& text) {
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  socket_file.string().copy(name.sun_path, sizeof name.sun_path - 1);
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  if (::connect(socket, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0) {
+    ::close(socket);
+    return "not connected";
+  }
+  (void)::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
+  std::string answer;
+  char c = 0;
+  while (::recv(socket, &c, 1, 0) == 1 && c != '\n') answer += c;
+  ::close(socket);
+  return answer;
 }
 
 Killed kill_cairn(const std::vector<std::string>& arguments, const std::string& from, double delay_s) {

@@ -41,6 +41,9 @@ Killed kill_cairn(const std::vector<std::string>& arguments, const std::string& 
 // The same, and sends SIGINT after the first line has come out.
 Finished interrupt_cairn(const std::vector<std::string>& arguments);
 
+// What a running mission's control socket says to this; "not connected" when there is none.
+std::string answer_to(const std::filesystem::path& socket_file, const std::string& text);
+
 // A program that is talked to line by line.
 class Conversation {
  public:

@@ -99,6 +99,7 @@ struct PlanCommand : MapPlannerOptions {
   PlanQuestion question;
   std::string queries;      // a file, "-" for standard input, empty for one query
   std::optional<int> jobs;  // queries at once; none: as many as there are cores
+  std::string serve;        // an address at which questions are answered until Ctrl-C; empty: none
   std::filesystem::path picture;
 };
 int plan(const PlanCommand& command, const CommonOptions& common);
@@ -145,8 +146,8 @@ inline constexpr double kMaxCoordinate = 1e6;  // of a box or a transform, in me
 struct MergeCommand {
   std::filesystem::path a;
   std::filesystem::path b;
-  std::string transform = "0,0,0";  // x,y,deg: where b's frame lies in a's
-  double near_m = 0.4;              // landmarks of one category this near to each other are one
+  std::optional<std::string> transform;  // x,y,deg: where b's frame lies in a's; none: it is found out
+  double near_m = 0.4;                   // landmarks of one category this near to each other are one
   std::filesystem::path out;
 };
 int map_merge(const MergeCommand& command, const CommonOptions& common);

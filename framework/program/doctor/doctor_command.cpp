@@ -22,8 +22,30 @@ double blind_s_of(const Mission& mission) {
   return mission.config.collision_monitor.blind_s.value_or(period_s > 0.0 ? 1.5 * period_s : 1.0);
 }
 
-std::string text_of(const Finding& finding) {
-  return fmt::format("{} {:<16} {}\n", finding.is_good ? "ok " : "BAD", finding.what, finding.text);
+constexpr std::size_t kMinColumn = 16;
+constexpr std::size_t kMaxColumn = 40;
+
+std::string text_of(const std::vector<Finding>& findings) {
+  std::size_t column = kMinColumn;
+  for (const Finding& finding : findings) column = std::max(column, std::min(finding.what.size(), kMaxColumn));
+  std::string text;
+  for (const Finding& finding : findings)
+    text += fmt::format("{} {:<{}} {}\n", finding.is_good ? "ok " : "BAD", finding.what, column, finding.text);
+  return text;
+}
+
+ordered_json json_of(const Finding& finding) {
+  ordered_json json{{"ok", finding.is_good}, {"what", finding.what}, {"text", finding.text}};
+  for (const ConnectionValue& value : finding.values) json["values"][value.name] = value.text;
+  return json;
+}
+
+// What the sensor is connected to is read next to whether it is.
+void add_connection(Sensor& sensor, std::vector<Finding>& findings) {
+  auto* const report = dynamic_cast<ConnectionReport*>(&sensor);
+  if (report == nullptr) return;
+  const std::vector<Finding> parts = findings_of(report->connection_parts());
+  findings.insert(std::next(findings.begin()), parts.begin(), parts.end());
 }
 
 }  // namespace
@@ -36,16 +58,14 @@ int doctor_live(const DoctorLiveCommand& command, const CommonOptions& common) {
   LiveCheck check(mission.robot, blind_s_of(mission), mission.config.collision_monitor.stop_after_s);
   check.watch(*sensor, command.for_s, end);
   std::vector<Finding> findings = check.findings(sensor->drive() != nullptr);
+  add_connection(*sensor, findings);
   const auto all_good = [&] { return std::ranges::all_of(findings, &Finding::is_good); };
   const bool may_wiggle = all_good();
   if (command.wiggle && may_wiggle)
     for (const Finding& finding : wiggled(*sensor, end)) findings.push_back(finding);
   ordered_json json{{"mission", mission.config.mission}, {"ok", all_good()}, {"findings", ordered_json::array()}};
-  std::string text;
-  for (const Finding& finding : findings) {
-    json["findings"].push_back({{"ok", finding.is_good}, {"what", finding.what}, {"text", finding.text}});
-    text += text_of(finding);
-  }
+  for (const Finding& finding : findings) json["findings"].push_back(json_of(finding));
+  std::string text = text_of(findings);
   if (command.wiggle && !may_wiggle) text += "no wheel was turned: mend what is BAD first\n";
   print(json, text, common);
   return all_good() ? kExitDone : kExitNotSolved;

@@ -23,10 +23,10 @@ constexpr double kCommandValid_s = 0.25;
 constexpr double kMustStandWithin_s = 1.0;
 
 Finding good(std::string what, std::string text) {
-  return {true, std::move(what), std::move(text)};
+  return {true, std::move(what), std::move(text), {}};
 }
 Finding bad(std::string what, std::string text) {
-  return {false, std::move(what), std::move(text)};
+  return {false, std::move(what), std::move(text), {}};
 }
 
 // The next one; none: its fault is in why.
@@ -40,6 +40,18 @@ std::optional<Observation> next_of(Sensor& sensor, const std::atomic<bool>& end,
 }
 
 }  // namespace
+
+std::vector<Finding> findings_of(const std::vector<ConnectionPart>& parts) {
+  std::vector<Finding> all;
+  for (const ConnectionPart& part : parts) {
+    std::vector<std::string> texts;
+    for (const ConnectionValue& value : part.values) texts.push_back(value.name + " " + value.text);
+    const std::string values = joined(texts, "; ");
+    const bool is_good = part.problem.empty();
+    all.push_back({is_good, part.name, is_good ? values : fmt::format("{} ({})", part.problem, values), part.values});
+  }
+  return all;
+}
 
 void LiveCheck::watch(Sensor& sensor, double for_s, const std::atomic<bool>& end) {
   // Connecting is not counted.

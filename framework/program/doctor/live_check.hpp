@@ -1,4 +1,5 @@
-// What a robot says of itself while nobody drives it, and whether its wheels do what they are told.
+// What a robot says of itself while nobody drives it, what it is connected to, and whether its wheels do what they are
+// told.
 #pragma once
 
 #include <atomic>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/connection_report.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
 
@@ -15,7 +17,11 @@ struct Finding {
   bool is_good = true;
   std::string what;  // one or two words
   std::string text;  // for people, with what helps where it is not good
+  std::vector<ConnectionValue> values{};
 };
+
+// A finding a part of what a sensor is connected to.
+[[nodiscard]] std::vector<Finding> findings_of(const std::vector<ConnectionPart>& parts);
 
 // What has been seen of a sensor for a while.
 class LiveCheck {

@@ -34,10 +34,13 @@ void add_exchange(CLI::App& map, CommandLine& line) {
 }
 
 void add_merge(CLI::App& map, CommandLine& line) {
-  const auto [merge, c] = add_command(map, line, map_merge, "merge", "Lay a second map into the frame of a first");
+  const auto [merge, c] =
+      add_command(map, line, map_merge, "merge",
+                  "Lay a second map into the frame of a first; exit status 1: they do not show where");
   merge->add_option("A", c->a, "saved map (*.cairn), whose frame counts")->required();
   merge->add_option("B", c->b, "saved map to lay into it")->required();
-  merge->add_option("--transform", c->transform, "x,y,deg: where B's frame lies in A's")->required();
+  merge->add_option("--transform", c->transform,
+                    "x,y,deg: where B's frame lies in A's. Without it, it is found out by what both show");
   add_number(merge, "--near-m", c->near_m, "landmarks of one category this near to each other are one", 0.0, 1000.0);
   merge->add_option("-o,--out", c->out, "saved map to write")->required();
 }

@@ -6,12 +6,15 @@
 #include <thread>
 
 #include "framework/config/config_value.hpp"
+#include "framework/live/line_socket.hpp"
 #include "framework/planning/saved_map/map_planner.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/interrupt.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/plan/answer_line.hpp"
 #include "framework/program/plan/line_reader.hpp"
 #include "framework/program/plan/plan_query.hpp"
+#include "framework/program/plan/plan_server.hpp"
 #include "maps/base/ordered_parallel_map.hpp"
 #include "maps/pictures/saved_map_picture.hpp"
 
@@ -40,13 +43,20 @@ std::size_t jobs_of(const PlanCommand& command) {
   return command.jobs ? static_cast<std::size_t>(*command.jobs) : std::max(1U, std::thread::hardware_concurrency());
 }
 
+PlanQuery query_of_one_map(const std::string& line, const std::string& file, int number, const PlanQuestion& defaults) {
+  PlanQuery query = query_of_line(line, file, number, defaults);
+  if (!query.map.empty())
+    throw ConfigError({file, number, 1}, "\"map\" is for `cairn plan --serve`: here the command names the map");
+  return query;
+}
+
 int answer_queries(const MapPlanner& planner, const PlanCommand& command, const CommonOptions& common) {
   LineReader lines(command.queries);
   const auto take = [&]() -> std::optional<PlanQuery> {
     std::string line;
     while (lines.next(line))
       if (line.find_first_not_of(" \t\r") != std::string::npos)
-        return query_of_line(line, command.queries, lines.number(), command.question);
+        return query_of_one_map(line, command.queries, lines.number(), command.question);
     return std::nullopt;
   };
   bool has_any = false;
@@ -87,7 +97,28 @@ PlannerUse use_of(const PlanCommand& command) {
   return command.picture.empty() ? PlannerUse::one_question : PlannerUse::one_question_whole_grid;
 }
 
+void check_served(const PlanCommand& command) {
+  const PlanQuestion& question = command.question;
+  if (!question.from.empty() || !question.to.empty() || !command.queries.empty() || !command.picture.empty())
+    throw std::runtime_error(
+        "plan: --serve takes its questions, and gives its answers, over the socket; --from, --to, "
+        "--queries and --picture are for questions asked here");
+}
+
+int serve(const PlanCommand& command, const CommonOptions& common) {
+  const std::atomic<bool>& end = cancel_on_interrupt();
+  const live::Address address = live::address_of(command.serve);
+  const ModuleLibrary library = module_library(common);
+  ServedMaps maps(command, library);
+  PlanServer server(maps, address, jobs_of(command), command.question);
+  std::cout << "plans on " << command.map.string() << " are answered at " << live::text_of(address) << "\n"
+            << std::flush;
+  server.run(end);
+  return kExitDone;
+}
+
 void check(const PlanCommand& command) {
+  if (!command.serve.empty()) return check_served(command);
   const PlanQuestion& question = command.question;
   if (command.queries.empty()) {
     if (question.from.empty() || question.to.empty())
@@ -107,10 +138,11 @@ void check(const PlanCommand& command) {
 
 int plan(const PlanCommand& command, const CommonOptions& common) {
   check(command);
+  if (!command.serve.empty()) return serve(command, common);
   const ModuleLibrary library = module_library(common);
   const MapPlanner planner(command, use_of(command), library);
   if (!command.queries.empty()) return answer_queries(planner, command, common);
-  const PlanQuery query{"", command.question};
+  const PlanQuery query{"", "", command.question};
   const PlanResult result = planner.answer(query.question);
   if (common.json) std::cout << json_line_of(query, result, planner);
   (common.json ? std::cerr : std::cout) << text_for_people(query, result, planner);

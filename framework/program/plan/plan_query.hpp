@@ -14,11 +14,12 @@ namespace cairn {
 
 struct PlanQuery {
   nlohmann::json id = "";  // as it came: text or number
+  std::string map{};       // of those that are served; empty: the only one
   PlanQuestion question;
 };
 
 // One line {"id", "from", "to"} with, optionally, "via", "avoid", "closed", "alternatives", "cost", "explain",
-// "trajectory"; what it leaves out is as in `defaults`. Throws ConfigError with file:line:column.
+// "trajectory", "map"; what it leaves out is as in `defaults`. Throws ConfigError with file:line:column.
 [[nodiscard]] PlanQuery query_of_line(const std::string& line, const std::string& file, int number,
                                       const PlanQuestion& defaults);
 

@@ -123,6 +123,8 @@ void take(PlanQuery& query, const KeyPlace& at, const json& value, SourcePlace p
   place.column = at.value_column;
   if (key == "id") {
     query.id = value;
+  } else if (key == "map") {
+    query.map = text_of(value, key, place);
   } else if (key == "from") {
     question.from = text_of(value, key, place);
   } else if (key == "to") {
@@ -145,7 +147,7 @@ void take(PlanQuery& query, const KeyPlace& at, const json& value, SourcePlace p
     place.column = at.column;
     throw ConfigError(place, "a query knows no \"" + key + "\"" +
                                  did_you_mean(key, {"id", "from", "to", "via", "avoid", "closed", "alternatives",
-                                                    "cost", "explain", "trajectory"}));
+                                                    "cost", "explain", "trajectory", "map"}));
   }
   try {
     check(question);
@@ -159,7 +161,7 @@ void take(PlanQuery& query, const KeyPlace& at, const json& value, SourcePlace p
 PlanQuery query_of_line(const std::string& line, const std::string& file, int number, const PlanQuestion& defaults) {
   const SourcePlace place{file, number, 1};
   const json value = object_of_line(line, place);
-  PlanQuery query{"", defaults};
+  PlanQuery query{"", "", defaults};
   for (const KeyPlace& key : key_places_of(line)) take(query, key, value.at(key.key), place);
   for (const char* key : {"from", "to"})
     if (!value.contains(key)) throw ConfigError(place, std::string("a query needs the text \"") + key + "\"");

@@ -59,7 +59,7 @@ TEST_F(ASocket, OnlyTheUserMayConnectAndOnlyOneBaseListens) {
     struct stat found {};
     ASSERT_EQ(::stat(address_.socket.c_str(), &found), 0);
     EXPECT_EQ(found.st_mode & 0777U, 0600U);
-    EXPECT_THAT(reason_of([&] { (void)listen_at(address_); }), HasSubstr("another base listens there"));
+    EXPECT_THAT(reason_of([&] { (void)listen_at(address_); }), HasSubstr("another process listens there"));
   }
   EXPECT_NO_THROW((void)listen_at(address_)) << "what a killed base has left is taken away";
 }

@@ -7,11 +7,11 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 
 #include "framework/live/live_robot.hpp"
 #include "framework/live/steady_time.hpp"
 #include "plugins/p2os_robot/microcontroller.hpp"
+#include "tests/plugins/common/time_to_stand.hpp"
 #include "tests/plugins/p2os_robot/pioneer_on_a_terminal.hpp"
 
 namespace cairn::p2os_robot {
@@ -58,6 +58,9 @@ class P2osRobot : public testing::Test {
       driven.drive()->command({0.2, 0.0}, 0.3);
     }
   }
+  [[nodiscard]] auto stands() {
+    return [this](double within_s) { return pioneer.wait_for_wheels(false, within_s).has_value(); };
+  }
   // The same in another process, without end.
   [[nodiscard]] pid_t drive_elsewhere() const {
     const pid_t process = ::fork();
@@ -91,7 +94,8 @@ TEST_F(P2osRobot, DrivesAndSeesWhereItIs) {
 TEST_F(P2osRobot, StandsWhenNobodyOrdersAnyMore) {
   const auto driven = connected();
   drive(*driven, 0.5);
-  EXPECT_TRUE(pioneer.wait_for_wheels(false, kStands_s));
+  const TimeToStand time("no order any more");
+  EXPECT_TRUE(time.is_short(stands()));
 }
 
 TEST_F(P2osRobot, StandsAtOnceWhenToldTo) {
@@ -106,8 +110,10 @@ TEST_F(P2osRobot, StandsAtOnceWhenToldTo) {
 TEST_F(P2osRobot, StandsWhenItIsDestroyed) {
   auto driven = connected();
   drive(*driven, 0.5);
+  const TimeToStand time("the module is unloaded");
   driven.reset();
-  EXPECT_TRUE(pioneer.wait_for_wheels(false, 0.2));
+  EXPECT_TRUE(time.is_short(stands()));
+  for (int i = 0; i < 100 && pioneer.is_in_session(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   EXPECT_FALSE(pioneer.is_in_session());
 }
 
@@ -116,11 +122,9 @@ TEST_F(P2osRobot, StandsWhenItsProcessIsKilledOrStopped) {
   for (const int signal : {SIGKILL, SIGSTOP}) {
     const pid_t process = drive_elsewhere();
     ASSERT_TRUE(pioneer.wait_for_wheels(true, 5.0));
-    const double begin_s = live::now_s();
+    const TimeToStand time(signal == SIGKILL ? "SIGKILL" : "SIGSTOP");
     ::kill(process, signal);
-    EXPECT_TRUE(pioneer.wait_for_wheels(false, kStands_s)) << signal;
-    std::cout << (signal == SIGKILL ? "SIGKILL" : "SIGSTOP") << ": the wheels stand after " << live::now_s() - begin_s
-              << " s\n";
+    EXPECT_TRUE(time.is_short(stands()));
     ::kill(process, SIGCONT);
     ::kill(process, SIGKILL);
     ::waitpid(process, nullptr, 0);
@@ -157,7 +161,8 @@ TEST_F(P2osRobot, StandsWhenTheBaseSaysNothingAndGoesOnWhenItDoes) {
   drive(*driven, 0.5);
   pioneer.is_silent = true;
   std::thread again([this] {
-    EXPECT_TRUE(pioneer.wait_for_wheels(false, kStands_s));
+    const TimeToStand time("the base says nothing");
+    EXPECT_TRUE(time.is_short(stands()));
     pioneer.is_silent = false;
   });
   (void)next_of(*driven);  // waits through the silence

@@ -1,4 +1,4 @@
-// Clouds of points as rings of sonars, and the field of the Earth.
+// Clouds of points as rings of sonars.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -101,28 +101,6 @@ TEST(Clouds, OfOldHaveTheirPointsAsTheyAre) {
   const std::vector<Point> read = points_of(cloud);
   EXPECT_EQ(read[0], Point(1.0, 2.0));
   EXPECT_TRUE(std::isnan(read[1].x()));
-}
-
-TEST(Clouds, APointOfASonarIsItsRange) {
-  SonarModel sonar;
-  sonar.T_robot_sonar = {0.1, 0.0, 0.0};
-  EXPECT_NEAR(reading_of(Point(1.6, 0.0), sonar, 3, 1000.0).range_m, 1.5, 1e-12);
-  EXPECT_EQ(reading_of(Point(1.6, 0.0), sonar, 3, 1000.0).sensor, 3);
-  EXPECT_TRUE(std::isinf(reading_of(Point(5.0, 0.0), sonar, 3, 4.9).range_m));
-  EXPECT_TRUE(std::isnan(reading_of(Point(std::nan(""), 0.0), sonar, 3, 4.9).range_m));
-}
-
-TEST(MagneticFields, PointNorthFromWhereverTheRobotLooks) {
-  for (const double heading : {-2.0, 0.0, 1.0, 3.0}) {
-    MagneticField field{};
-    field.magnetic_field = {2e-5 * std::cos(-heading), 2e-5 * std::sin(-heading), -4e-5};
-    EXPECT_NEAR(*compass_rad(field, 0.0), heading, 1e-9);
-    EXPECT_NEAR(wrap_angle(*compass_rad(field, 0.5) - heading), 0.5, 1e-9);
-  }
-  MagneticField none{};
-  EXPECT_FALSE(compass_rad(none, 0.0));
-  none.magnetic_field.x = std::nan("");
-  EXPECT_FALSE(compass_rad(none, 0.0));
 }
 
 }  // namespace

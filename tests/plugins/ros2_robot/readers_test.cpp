@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "framework/live/steady_time.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 #include "plugins/ros2_robot/messages.hpp"
 #include "plugins/ros2_robot/ros2_robot.hpp"
 

@@ -38,6 +38,50 @@ TEST_F(MapEdit, MergeLaysTheSecondMapIntoTheFrameOfTheFirst) {
             2);
 }
 
+// An L-shaped room with a corner in it, as one sees it whose frame is turned by a right angle for `turned`.
+SavedMap room(int from_x, int to_x, bool turned) {
+  SavedMap map;
+  map.grid = OccupancyGrid(0.05);
+  for (int y = 0; y < 80; ++y)
+    for (int x = from_x; x < to_x; ++x) {
+      const bool is_out = x >= 80 && y >= 40;
+      const bool is_wall = x < 2 || x >= 138 || y < 2 || y >= 78 || (x >= 78 && y >= 38) ||
+                           (x >= 30 && x < 34 && y >= 50) || (x >= 100 && x < 103 && y < 20);
+      if (is_out && !(x < 82 || y < 42)) continue;
+      map.grid.set_log_odds(turned ? Cell{-y, x} : Cell{x, y}, is_wall ? LogOdds{900} : LogOdds{-900});
+    }
+  return map;
+}
+
+TEST_F(MapEdit, MergeFindsOutWhereTheSecondMapLiesAndCountsNothingTwice) {
+  save("west.cairn", room(0, 110, false));
+  save("east.cairn", room(20, 140, true));
+  const json found = done({"merge", file("west.cairn"), file("east.cairn"), "-o", file("m.cairn")});
+  EXPECT_NEAR(found["transform"]["deg"].get<double>(), -90.0, 1.0) << found;
+  EXPECT_GT(found["transform"]["wall_ratio"], 0.95);
+  const SavedMap merged = map("m.cairn");
+  EXPECT_EQ(merged.grid.state(merged.grid.cell_at({6.0, 1.0})), CellState::free);
+
+  const json again = done({"merge", file("m.cairn"), file("east.cairn"), "-o", file("again.cairn")});
+  EXPECT_TRUE(again["transform"].is_null());
+  EXPECT_EQ(map("again.cairn").grid.log_odds(merged.grid.cell_at({3.0, 1.0})),
+            merged.grid.log_odds(merged.grid.cell_at({3.0, 1.0})));
+  save("other.cairn", drawn_map({"..##", "...#"}, {0.0, 0.0}));
+  done({"merge", file("m.cairn"), file("other.cairn"), "--transform", "0,0,0", "-o", file("more.cairn")});
+  EXPECT_THAT(refused({"merge", file("m.cairn"), file("more.cairn"), "--transform", "0,0,0", "-o", file("x.cairn")}),
+              HasSubstr("both hold the evidence of one map"));
+}
+
+TEST_F(MapEdit, MergeSaysWhyItCannotFindOut) {
+  save("west.cairn", room(0, 110, false));
+  const Finished tried =
+      run_cairn({"map", "merge", file("west.cairn"), file("b.cairn"), "-o", file("m.cairn"), "--json"});
+  EXPECT_EQ(tried.exit_status, 1);
+  EXPECT_NE(json::parse(tried.out)["reason"], "");
+  EXPECT_THAT(tried.err, HasSubstr("do not show where one lies in the other: "));
+  EXPECT_FALSE(std::filesystem::exists(file("m.cairn")));
+}
+
 TEST_F(MapEdit, NoInputIsOverwrittenUnlessOutNamesIt) {
   const std::string a = text_of_file(file("a.cairn"));
   const std::string b = text_of_file(file("b.cairn"));

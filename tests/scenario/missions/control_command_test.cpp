@@ -132,20 +132,6 @@ TEST_F(Control, ReportedWhereNothingRunsItSaysSo) {
   EXPECT_EQ(report("pause").exit_status, 2);
 }
 
-std::string answer_to(const fs::path& socket_file, const std::string& text) {
-  sockaddr_un name{};
-  name.sun_family = AF_UNIX;
-  socket_file.string().copy(name.sun_path, sizeof name.sun_path - 1);
-  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
-  if (::connect(socket, reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0) return "not connected";
-  (void)::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
-  std::string answer;
-  char c = 0;
-  while (::recv(socket, &c, 1, 0) == 1 && c != '\n') answer += c;
-  ::close(socket);
-  return answer;
-}
-
 TEST_F(Control, WhatIsNoCommandIsRefusedAndTheMissionGoesOn) {
   Conversation run(run_of(mission_in(folder_, "[wait: 1000]"), {"--realtime"}));
   (void)status_in(out_, "running");
@@ -247,7 +233,7 @@ TEST_F(Control, TheTimeOfPausesIsKeptSinceTheWorldWentOnMeanwhile) {
   const SavedMap soon = grid_after("1.5");
   const SavedMap later = grid_after("20");
   EXPECT_EQ(later.properties.at("paused_s"), "20");
-  const auto is_seen = [](const SavedMap& map, const Point& at) { return map.grid.log_odds(map.grid.cell_at(at)); };
+  const auto is_seen = [](const SavedMap& of, const Point& at) { return of.grid.log_odds(of.grid.cell_at(at)); };
   EXPECT_GT(is_seen(later, {2.2, 0.6}), is_seen(soon, {2.2, 0.6})) << "the door has closed while the mission paused";
   for (const std::string bad : {"soon", "-1", "nan", "1e300", "2 s"}) {
     saved.properties["paused_s"] = bad;

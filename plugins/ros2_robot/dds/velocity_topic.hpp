@@ -5,7 +5,7 @@
 
 #include "maps/geometry/pose.hpp"
 #include "plugins/ros2_robot/config.hpp"
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 
 namespace cairn::ros2_robot {
 
@@ -19,6 +19,9 @@ class VelocityTopic {
   // Beside look_who_listens(), by another thread. base_ahead_s: of the base's clock to this computer's steady one,
   // since a base may refuse velocities with other stamps; 0: not known.
   void send(const Twist& twist, double base_ahead_s) noexcept;
+  // Empty: it sends none of that type.
+  [[nodiscard]] const Entity& twist() const { return twist_; }
+  [[nodiscard]] const Entity& twist_stamped() const { return twist_stamped_; }
 
  private:
   std::string frame_;

@@ -3,10 +3,13 @@
 
 #include <dds/dds.h>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "plugins/ros2_robot/dds/qos_profile.hpp"
 
 namespace cairn::ros2_robot {
 
@@ -38,10 +41,17 @@ struct NetworkChoice {
   std::vector<std::string> peers;
 };
 
-// What others offer.
+// "rt/scan" is /scan; what has no such name is as it is.
+[[nodiscard]] std::string ros_name_of(const std::string& topic);
+// "sensor_msgs::msg::dds_::LaserScan_" is sensor_msgs/msg/LaserScan.
+[[nodiscard]] std::string ros_type_of(std::string type);
+
+// What others offer or want.
 struct Endpoint {
   std::string topic;  // as ROS names it: /scan
   std::string type;   // sensor_msgs/msg/LaserScan
+  QosProfile profile;
+  std::array<unsigned char, 16> participant{};  // whose it is
 };
 
 // best_effort fits whatever is offered; reliable is for what is said once; latched is also what was written before the
@@ -63,14 +73,17 @@ class Participant {
                               Writing writing = Writing::passing) const;
 
   // Of others, as known now.
-  [[nodiscard]] std::vector<Endpoint> publishers() const;
+  [[nodiscard]] std::vector<Endpoint> publishers() const { return others(publications_); }
+  [[nodiscard]] std::vector<Endpoint> subscribers() const { return others(subscriptions_); }
 
  private:
   [[nodiscard]] Entity topic(const std::string& name, const dds_topic_descriptor_t& type) const;
+  [[nodiscard]] std::vector<Endpoint> others(const Entity& builtin) const;
 
   Entity domain_;
   Entity participant_;
   Entity publications_;
+  Entity subscriptions_;
 };
 
 // Somebody has subscribed to what it writes.

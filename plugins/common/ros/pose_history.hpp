@@ -6,7 +6,7 @@
 
 #include "maps/geometry/pose.hpp"
 
-namespace cairn::ros2_robot {
+namespace cairn::ros {
 
 class PoseHistory {
  public:
@@ -23,4 +23,4 @@ class PoseHistory {
   std::deque<Known> known_;
 };
 
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::ros

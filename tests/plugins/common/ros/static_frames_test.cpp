@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "plugins/ros2_robot/sensor_places.hpp"
+#include "plugins/common/ros/sensor_places.hpp"
 
-namespace cairn::ros2_robot {
+namespace cairn::ros {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -69,27 +69,9 @@ TEST(StaticFrames, ACircleLeadsNowhere) {
   EXPECT_FALSE(frames.find("a", "b"));
 }
 
-// The transform of one frame, as it comes on the wire.
-class OneFrame {
- public:
-  OneFrame(std::string parent, std::string child, double x_m) : parent_(std::move(parent)), child_(std::move(child)) {
-    transform_.header.frame_id = parent_.data();
-    transform_.child_frame_id = child_.data();
-    transform_.transform.translation.x = x_m;
-    transform_.transform.rotation.w = 1.0;
-  }
-  [[nodiscard]] TFMessage message() {
-    TFMessage all{};
-    all.transforms._buffer = &transform_;
-    all.transforms._length = 1;
-    return all;
-  }
-
- private:
-  std::string parent_;
-  std::string child_;
-  geometry_msgs_msg_dds__TransformStamped_ transform_{};
-};
+void add_frame(SensorPlaces& places, const std::string& parent, const std::string& child, double x_m) {
+  EXPECT_TRUE(places.add(parent, child, {x_m, 0.0, 0.0}, kAsItIs));
+}
 
 std::string refusal_of(auto act) {
   try {
@@ -101,23 +83,23 @@ std::string refusal_of(auto act) {
 }
 
 TEST(SensorPlaces, AreTheFilesUnlessFramesSayOtherwise) {
-  SensorPlaces places{Config{}};
+  SensorPlaces places{RobotTopics{}};
   places.found_base("base_link");
   const Pose2 by_file{0.1, 0.0, 0.0};
   EXPECT_EQ(places.of_sensor("sonar", by_file, 0.0)->T_base_sensor, by_file) << "a frame that nobody knows";
-  places.add(OneFrame("base_link", "sonar", 0.12).message());
+  add_frame(places, "base_link", "sonar", 0.12);
   EXPECT_EQ(places.of_sensor("sonar", by_file, 0.0)->T_base_sensor, by_file) << "near enough";
-  places.add(OneFrame("base_link", "sonar", 0.3).message());
+  add_frame(places, "base_link", "sonar", 0.3);
   EXPECT_THAT(refusal_of([&] { (void)places.of_sensor("sonar", by_file, 0.0); }),
               HasSubstr("the sensor \"sonar\" is at (0.30, 0.00) m, 0 deg from \"base_link\" by /tf_static, and at "
                         "(0.10, 0.00) m, 0 deg by the robot's file"));
 }
 
 TEST(SensorPlaces, AreTheFilesAloneOrTheFramesAloneWhenTheSettingsSaySo) {
-  Config config;
+  RobotTopics config;
   config.mounting = Mounting::file;
   SensorPlaces file(config);
-  file.add(OneFrame("base_link", "sonar", 9.0).message());
+  add_frame(file, "base_link", "sonar", 9.0);
   file.found_base("base_link");
   EXPECT_EQ(file.of_sensor("sonar", {0.1, 0.0, 0.0}, 0.0)->T_base_sensor.x_m, 0.1);
   config.mounting = Mounting::frames;
@@ -125,14 +107,14 @@ TEST(SensorPlaces, AreTheFilesAloneOrTheFramesAloneWhenTheSettingsSaySo) {
   SensorPlaces frames(config);
   frames.found_base("base_footprint");
   EXPECT_FALSE(frames.of_sensor("sonar", {0.1, 0.0, 0.0}, 10.0)) << "not known yet";
-  frames.add(OneFrame("base_link", "sonar", 9.0).message());
+  add_frame(frames, "base_link", "sonar", 9.0);
   EXPECT_EQ(frames.of_sensor("sonar", {0.1, 0.0, 0.0}, 11.0)->T_base_sensor.x_m, 9.0);
 }
 
 TEST(SensorPlaces, AFrameThatDoesNotBecomeKnownIsAFaultWithThoseThatAre) {
-  SensorPlaces places{Config{}};
+  SensorPlaces places{RobotTopics{}};
   places.found_base("base_link");
-  places.add(OneFrame("base_link", "sonars", 0.2).message());
+  add_frame(places, "base_link", "sonars", 0.2);
   EXPECT_FALSE(places.of_frame("sonar", 10.0));
   EXPECT_THAT(refusal_of([&] { (void)places.of_frame("sonar", 15.1); }),
               HasSubstr("/tf_static does not say where the frame \"sonar\" is on \"base_link\" (did you mean "
@@ -142,11 +124,11 @@ TEST(SensorPlaces, AFrameThatDoesNotBecomeKnownIsAFaultWithThoseThatAre) {
 }
 
 TEST(SensorPlaces, AFrameThatIsKnownDoesNotMakeUpForOneThatIsNot) {
-  Config config;
+  RobotTopics config;
   config.mounting = Mounting::frames;
   SensorPlaces places(config);
   places.found_base("base_link");
-  places.add(OneFrame("base_link", "left", 0.2).message());
+  add_frame(places, "base_link", "left", 0.2);
   const auto see_both = [&](double now_s) {
     (void)places.of_sensor("left", {}, now_s);
     (void)places.of_sensor("right", {}, now_s);
@@ -157,7 +139,7 @@ TEST(SensorPlaces, AFrameThatIsKnownDoesNotMakeUpForOneThatIsNot) {
 }
 
 TEST(SensorPlaces, FramesThatNobodyReadsAreAFaultThatNamesTheSetting) {
-  Config config;
+  RobotTopics config;
   config.mounting = Mounting::frames;
   config.static_frames = "";
   SensorPlaces places(config);
@@ -167,4 +149,4 @@ TEST(SensorPlaces, FramesThatNobodyReadsAreAFaultThatNamesTheSetting) {
 }
 
 }  // namespace
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::ros

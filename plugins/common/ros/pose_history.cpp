@@ -1,8 +1,8 @@
-#include "plugins/ros2_robot/pose_history.hpp"
+#include "plugins/common/ros/pose_history.hpp"
 
 #include <algorithm>
 
-namespace cairn::ros2_robot {
+namespace cairn::ros {
 namespace {
 
 constexpr double kKept_s = 2.0;
@@ -26,4 +26,4 @@ std::optional<Pose2> PoseHistory::at(double stamp_s) const {
   return before.T_odom_robot * Pose2{share * step.x_m, share * step.y_m, share * step.theta_rad};
 }
 
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::ros

@@ -6,17 +6,20 @@
 #include <string>
 
 #include "plugins/common/frames/static_frames.hpp"
-#include "plugins/ros2_robot/config.hpp"
-#include "plugins/ros2_robot/messages.hpp"
+#include "plugins/common/ros/settings.hpp"
 
-namespace cairn::ros2_robot {
+namespace cairn::ros {
 
 class SensorPlaces {
  public:
-  explicit SensorPlaces(const Config& config)
-      : mounting_(config.mounting), topic_(config.static_frames), base_(config.base_frame) {}
+  explicit SensorPlaces(const RobotTopics& topics)
+      : mounting_(topics.mounting), topic_(topics.static_frames), base_(topics.base_frame) {}
 
-  void add(const TFMessage& transforms);
+  // As StaticFrames::add().
+  bool add(const std::string& parent, const std::string& child, const Eigen::Vector3d& position_m,
+           const Eigen::Quaterniond& rotation) {
+    return frames_.add(parent, child, position_m, rotation);
+  }
   // The robot's frame, unless the settings name one.
   void found_base(const std::string& frame) {
     if (base_.empty()) base_ = frame;
@@ -38,4 +41,4 @@ class SensorPlaces {
   std::map<std::string, double> waiting_since_s_;  // frames that are not known yet
 };
 
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::ros

@@ -1,4 +1,4 @@
-#include "plugins/ros2_robot/velocity_topic.hpp"
+#include "plugins/ros2_robot/dds/velocity_topic.hpp"
 
 #include <array>
 #include <chrono>

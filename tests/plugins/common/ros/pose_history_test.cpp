@@ -1,8 +1,8 @@
-#include "plugins/ros2_robot/pose_history.hpp"
+#include "plugins/common/ros/pose_history.hpp"
 
 #include <gtest/gtest.h>
 
-namespace cairn::ros2_robot {
+namespace cairn::ros {
 namespace {
 
 TEST(PoseHistory, IsBetweenWhatIsKnownAndNearestAtItsEnds) {
@@ -31,4 +31,4 @@ TEST(PoseHistory, KeepsTwoSeconds) {
 }
 
 }  // namespace
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::ros

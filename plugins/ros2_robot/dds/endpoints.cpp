@@ -1,5 +1,6 @@
-#include "plugins/ros2_robot/endpoints.hpp"
+#include "plugins/ros2_robot/dds/endpoints.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace cairn::ros2_robot {
@@ -50,19 +51,6 @@ std::string dds_name_of(const std::string& topic) {
   return "rt" + topic;
 }
 
-std::string ros_name_of(const std::string& topic) {
-  return topic.starts_with("rt/") ? topic.substr(2) : topic;
-}
-
-// "sensor_msgs::msg::dds_::LaserScan_" is sensor_msgs/msg/LaserScan.
-std::string ros_type_of(std::string type) {
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"::dds_::", "::"}, {"::", "/"}})
-    for (std::size_t at = type.find(from); at != std::string::npos; at = type.find(from, at + to.size()))
-      type.replace(at, from.size(), to);
-  if (type.ends_with('_')) type.pop_back();
-  return type;
-}
-
 struct Qos {
   Qos() : qos(dds_create_qos()) {}
   ~Qos() { dds_delete_qos(qos); }
@@ -72,6 +60,18 @@ struct Qos {
 };
 
 }  // namespace
+
+std::string ros_name_of(const std::string& topic) {
+  return topic.starts_with("rt/") ? topic.substr(2) : topic;
+}
+
+std::string ros_type_of(std::string type) {
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"::dds_::", "::"}, {"::", "/"}})
+    for (std::size_t at = type.find(from); at != std::string::npos; at = type.find(from, at + to.size()))
+      type.replace(at, from.size(), to);
+  if (type.ends_with('_')) type.pop_back();
+  return type;
+}
 
 Participant::Participant(const NetworkChoice& network) {
   const auto domain = static_cast<dds_domainid_t>(network.domain);
@@ -87,6 +87,8 @@ Participant::Participant(const NetworkChoice& network) {
                          "ros2_robot: no participant in domain " + std::to_string(network.domain));
   publications_ = checked(dds_create_reader(participant_.get(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
                           "ros2_robot: no list of publishers");
+  subscriptions_ = checked(dds_create_reader(participant_.get(), DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, nullptr, nullptr),
+                           "ros2_robot: no list of subscribers");
 }
 
 Entity Participant::topic(const std::string& name, const dds_topic_descriptor_t& type) const {
@@ -126,10 +128,10 @@ bool is_read(const Entity& writer) {
   return writer && dds_get_publication_matched_status(writer.get(), &matched) == 0 && matched.current_count > 0;
 }
 
-std::vector<Endpoint> Participant::publishers() const {
+std::vector<Endpoint> Participant::others(const Entity& builtin) const {
   void* samples[kMaxEndpoints] = {};
   dds_sample_info_t infos[kMaxEndpoints];
-  const dds_return_t count = dds_read(publications_.get(), samples, infos, kMaxEndpoints, kMaxEndpoints);
+  const dds_return_t count = dds_read(builtin.get(), samples, infos, kMaxEndpoints, kMaxEndpoints);
   std::vector<Endpoint> all;
   dds_guid_t own{};
   (void)dds_get_guid(participant_.get(), &own);
@@ -137,9 +139,11 @@ std::vector<Endpoint> Participant::publishers() const {
     const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
     const bool is_alive = infos[i].instance_state == DDS_ALIVE_INSTANCE_STATE && infos[i].valid_data;
     if (!is_alive || std::equal(std::begin(own.v), std::end(own.v), std::begin(endpoint.participant_key.v))) continue;
-    all.push_back({ros_name_of(endpoint.topic_name), ros_type_of(endpoint.type_name)});
+    Endpoint& found = all.emplace_back(
+        Endpoint{ros_name_of(endpoint.topic_name), ros_type_of(endpoint.type_name), profile_of(endpoint.qos), {}});
+    std::copy(std::begin(endpoint.participant_key.v), std::end(endpoint.participant_key.v), found.participant.begin());
   }
-  if (count > 0) dds_return_loan(publications_.get(), samples, count);
+  if (count > 0) dds_return_loan(builtin.get(), samples, count);
   return all;
 }
 

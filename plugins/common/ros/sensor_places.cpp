@@ -1,4 +1,4 @@
-#include "plugins/ros2_robot/sensor_places.hpp"
+#include "plugins/common/ros/sensor_places.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 
 #include "maps/base/spelling.hpp"
 
-namespace cairn::ros2_robot {
+namespace cairn::ros {
 namespace {
 
 constexpr double kMaxOff_m = 0.05;
@@ -22,14 +22,6 @@ std::string text_of(const Pose2& pose) {
 }
 
 }  // namespace
-
-void SensorPlaces::add(const TFMessage& transforms) {
-  for (std::uint32_t i = 0; i < transforms.transforms._length; ++i) {
-    const auto& [header, child, transform] = transforms.transforms._buffer[i];
-    const auto& [t, r] = transform;
-    (void)frames_.add(header.frame_id, child, {t.x, t.y, t.z}, {r.w, r.x, r.y, r.z});
-  }
-}
 
 std::optional<frames::Mounted> SensorPlaces::of_sensor(const std::string& frame, const Pose2& T_robot_sensor,
                                                        double now_s) {
@@ -71,4 +63,4 @@ void SensorPlaces::wait_for(const std::string& frame, double now_s) {
                   listed < std::ssize(known) ? ", ..." : ""));
 }
 
-}  // namespace cairn::ros2_robot
+}  // namespace cairn::ros
