@@ -236,6 +236,11 @@ class RunResults {
   RunPictures pictures_;
 };
 
+// What a real robot has seen cannot be seen again: it is always recorded.
+void record_real_robot(MissionConfig& config, bool is_real) {
+  if (is_real && config.record.empty()) config.record = config.mission + ".log.gz";
+}
+
 MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
                                  RunReport& report, McapRecording* mcap, WatchSource& watched, std::ostream& people) {
   std::optional<RunRecording> recording;
@@ -282,6 +287,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
+  record_real_robot(mission.config, runner.has_drive() && !mission.world);
   if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
   watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },
