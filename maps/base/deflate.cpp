@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -42,6 +43,7 @@ std::string gzip_member(std::string_view bytes) {
   constexpr int kGzipWindow = 15 + 16;  // the largest window, with gzip's header and no time in it
   constexpr int kMemory = 8;
   z_stream stream{};
+  if (bytes.size() > std::numeric_limits<uInt>::max()) throw std::length_error("gzip_member: more than 4 GB at once");
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
   std::string packed(deflateBound(&stream, bytes.size()), '\0');

@@ -12,7 +12,7 @@ namespace cairn {
 // Throws std::invalid_argument when they do not unpack to exactly that size; never takes memory that they cannot fill.
 [[nodiscard]] std::string inflated(std::string_view packed, std::size_t size);
 
-// A whole gzip file, and a part of one: files one after the other are a file.
+// One member of a gzip file; members one after the other are a file. Throws std::length_error for more than 4 GB.
 [[nodiscard]] std::string gzip_member(std::string_view bytes);
 
 }  // namespace cairn

@@ -1,7 +1,8 @@
 // How well saved maps of one place find each other, and that those of two places do not:
 //     merge_table PLACE=MAP,MAP,... ...
-// Every two maps of a place are laid into one another, the second as it is and moved five times; every two of different
-// places likewise, as they are. Prints a row a place, and one for the different ones.
+// Every two maps of a place are aligned, the second as it is and in five other frames; all maps of a place must be in
+// one frame, as those of a simulation are: that is the truth. Every two of different places are tried as they are.
+// Prints a row a place, and one for the different ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,10 +10,11 @@
 #include <cmath>
 #include <iostream>
 #include <optional>
-#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "maps/base/portable_random.hpp"
 #include "maps/edit/alignment.hpp"
 #include "maps/edit/merge.hpp"
 
@@ -21,7 +23,7 @@ namespace {
 using cairn::Pose2;
 using cairn::SavedMap;
 
-constexpr int kMoved = 5;
+constexpr int kOtherFrames = 5;
 
 struct Place {
   std::string name;
@@ -49,13 +51,13 @@ std::optional<Place> place_of(const std::string& word) {
 }
 
 // The same map in a frame that lies so in its own.
-SavedMap moved(const SavedMap& map, const Pose2& T_new_old) {
+SavedMap in_other_frame(const SavedMap& map, const Pose2& T_new_old) {
   SavedMap empty;
   empty.grid = cairn::OccupancyGrid(map.grid.cell_m());
   return cairn::merge_maps(empty, map, {T_new_old, 0.4}).map;
 }
 
-void lay(const SavedMap& a, const SavedMap& b, const Pose2& T_new_old, Row& row) {
+void align(const SavedMap& a, const SavedMap& b, const Pose2& T_new_old, Row& row) {
   const auto begin = std::chrono::steady_clock::now();
   const cairn::AlignmentResult result = cairn::align_maps(a, b);
   row.took_s.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
@@ -84,26 +86,24 @@ void print(const std::string& name, const Row& row, bool is_same_place) {
 
 int main(int argc, char** argv) {
   std::vector<Place> places;
-  for (int i = 1; i < argc; ++i) {
-    auto place = place_of(argv[i]);
-    if (!place) {
-      std::cerr << "merge_table PLACE=MAP,MAP,... ...\n";
-      return 2;
-    }
-    places.push_back(std::move(*place));
+  for (int i = 1; i < argc; ++i)
+    if (auto place = place_of(argv[i])) places.push_back(std::move(*place));
+  if (places.empty() || static_cast<int>(places.size()) != argc - 1) {
+    std::cerr << "merge_table PLACE=MAP,MAP,... ...\n";
+    return 2;
   }
-  std::cout << "| maps of | laid into one another | largest error, m | degrees | longest search, s |\n"
+  std::cout << "| maps of | aligned | largest error, m | degrees | longest search, s |\n"
                "|---|---:|---:|---:|---:|\n";
-  std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> anywhere(-20.0, 20.0);
-  std::uniform_real_distribution<double> any_way(-3.14, 3.14);
+  cairn::PortableRandom random(11);
   for (const Place& place : places) {
     Row row;
     for (std::size_t a = 0; a < place.maps.size(); ++a)
       for (std::size_t b = a + 1; b < place.maps.size(); ++b)
-        for (int i = 0; i <= kMoved; ++i) {
-          const Pose2 T_new_old = i == 0 ? Pose2{} : Pose2{anywhere(random), anywhere(random), any_way(random)};
-          lay(place.maps[a], i == 0 ? place.maps[b] : moved(place.maps[b], T_new_old), T_new_old, row);
+        for (int i = 0; i <= kOtherFrames; ++i) {
+          const Pose2 T_new_old =
+              i == 0 ? Pose2{}
+                     : Pose2{random.between(-20.0, 20.0), random.between(-20.0, 20.0), random.between(-3.14, 3.14)};
+          align(place.maps[a], i == 0 ? place.maps[b] : in_other_frame(place.maps[b], T_new_old), T_new_old, row);
         }
     print(place.name, row, true);
   }
@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
     for (const Place& b : places)
       if (&a < &b)
         for (const SavedMap& first : a.maps)
-          for (const SavedMap& second : b.maps) lay(first, second, {}, different);
+          for (const SavedMap& second : b.maps) align(first, second, {}, different);
   print("two places", different, false);
   return 0;
 }

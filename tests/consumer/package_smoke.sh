@@ -4,11 +4,11 @@
 # Only its own root is written to, so that it can run beside an installed Cairn and without rights.
 set -eu
 package=$(realpath "$1")
-python_package=${2:+$(realpath -m "$2")}
+python_package=${2:+$(realpath "$2")}
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
 dpkg-deb -x "$package" "$root"
-[ ! -f "$python_package" ] || dpkg-deb -x "$python_package" "$root"
+[ -z "$python_package" ] || dpkg-deb -x "$python_package" "$root"
 cd "$root"
 mkdir elsewhere
 cd elsewhere
@@ -17,7 +17,7 @@ cd elsewhere
 "$root/usr/bin/cairn" run "$root/usr/share/cairn/config/missions/office.yaml" --out out
 "$root/usr/bin/cairn" map check out/office.cairn
 "$root/usr/bin/cairn" plugins new detector my_detector >/dev/null
-if [ -f "$python_package" ]; then
+if [ -n "$python_package" ]; then
   PYTHONPATH="$root/usr/lib/python3/dist-packages" /usr/bin/python3 -c '
 import cairn
 map = cairn.load("out/office.cairn")

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_ended = true; });
-  cairn::p2os_robot::PioneerOnATerminal pioneer("p3dx-sh", cairn::enki::two_rooms(argv[2]));
+  cairn::p2os_robot::PioneerOnATerminal pioneer("p3dx-sh", cairn::enki::pioneer_in_two_rooms(argv[2]));
   pioneer.say_every_s = 0.1;
   std::filesystem::remove(argv[1]);
   std::filesystem::create_symlink(pioneer.device(), argv[1]);

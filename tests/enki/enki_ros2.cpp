@@ -1,15 +1,18 @@
 // A Pioneer 3-DX in a world of Enki, on a ROS 2 network by Fast DDS, on this computer only, in wall-clock time:
 //     enki_ros2 DOMAIN LOG LATENCIES
 // Publishes /odom every 70 ms, and on /sonar a Range of the next of its sonars every 40 ms (frames sonar_0 to
-// sonar_15); obeys a Twist on /cmd_vel, for half a second. LOG: tests/enki/enki_world.hpp. LATENCIES: a line an
-// odometry, the milliseconds until the first velocity after it. Cairn says a velocity again after 50 ms, which is
-// before the next odometry: a velocity within 30 ms is the answer.
+// sonar_15); obeys a Twist on /cmd_vel, for two seconds. LOG: tests/enki/enki_world.hpp. LATENCIES: the milliseconds
+// from each odometry to the first velocity after it, if that comes before the next. Cairn repeats a velocity after 50
+// ms, before the next odometry: a velocity within 30 ms is the answer.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -29,7 +32,7 @@ using cairn::fast_dds::Stranger;
 
 constexpr double kOdometryEvery_s = 0.07;
 constexpr double kSonarEvery_s = 0.04;
-constexpr double kObeysFor_s = 0.5;
+constexpr double kObeysFor_s = 2.0;
 constexpr double kStep_s = 0.01;
 
 std::atomic<bool> is_ended{false};
@@ -50,7 +53,7 @@ bool is_due(double& last_s, double every_s, double now_s) {
 class RosPioneer {
  public:
   RosPioneer(int domain, const std::string& log, const std::string& latencies)
-      : body_(cairn::enki::two_rooms(log)),
+      : body_(cairn::enki::pioneer_in_two_rooms(log)),
         network_(domain),
         odometry_(network_.writer("/odom", "nav_msgs::msg::dds_::Odometry_")),
         sonar_(network_.writer("/sonar", "sensor_msgs::msg::dds_::Range_", Offer{false, false})),
@@ -61,9 +64,9 @@ class RosPioneer {
     const double now_s = cairn::live::now_s();
     take_velocity(now_s);
     if (const double moved_s = moved_s_; is_due(moved_s_, kStep_s, now_s))
-      body_->drive(now_s - heard_s_ < kObeysFor_s ? twist_ : Twist{}, std::min(now_s - moved_s, 0.1));
+      body_->drive(now_s - commanded_s_ < kObeysFor_s ? twist_ : Twist{}, std::min(now_s - moved_s, 0.1));
     if (is_due(fired_s_, kSonarEvery_s, now_s)) fire();
-    if (is_due(said_s_, kOdometryEvery_s, now_s)) say_odometry();
+    if (is_due(published_s_, kOdometryEvery_s, now_s)) publish_odometry();
   }
 
  private:
@@ -72,8 +75,8 @@ class RosPioneer {
       cairn::fast_dds::TwistNumbers numbers{};
       cairn::fast_dds::read_all(std::move(message), [&](Cdr& from) { from >> numbers; });
       twist_ = {numbers[0], numbers[5]};
-      heard_s_ = now_s;
-      if (!is_answered_) latencies_ << 1000.0 * (now_s - said_s_) << "\n" << std::flush;
+      commanded_s_ = now_s;
+      if (!is_answered_) latencies_ << 1000.0 * (now_s - published_s_) << "\n" << std::flush;
       is_answered_ = true;
     }
   }
@@ -83,7 +86,7 @@ class RosPioneer {
         [&](Cdr& to) { cairn::fast_dds::write_range(to, stamped_now("sonar_" + std::to_string(next_)), range_m); }));
     next_ = (next_ + 1) % body_->sonars();
   }
-  void say_odometry() {
+  void publish_odometry() {
     const Pose2 pose = body_->odometry();
     odometry_->write(cairn::fast_dds::written([&](Cdr& to) {
       cairn::fast_dds::write_odometry(
@@ -100,10 +103,10 @@ class RosPioneer {
   std::unique_ptr<Stranger::Reader> velocity_;
   std::ofstream latencies_;
   Twist twist_;
-  double heard_s_ = -1.0;
+  double commanded_s_ = -1.0;
   double moved_s_ = cairn::live::now_s();
   double fired_s_ = 0.0;
-  double said_s_ = 0.0;
+  double published_s_ = 0.0;
   int next_ = 0;
   bool is_answered_ = true;
 };

@@ -105,7 +105,7 @@ class EnkiOnRos2 : public EnkiRobot {
   void SetUp() override {
     if (!std::filesystem::exists(std::string(CAIRN_BINARY_DIR) + "/lib/cairn/ros2_robot.so"))
       GTEST_SKIP() << "cyclonedds-dev is not installed";
-    const std::string domain = std::to_string(30 + ::getpid() % 70);
+    const std::string domain = std::to_string(200 + ::getpid() % 30);
     std::string frames = "sonar_0";
     for (int i = 1; i < 16; ++i) frames += ", sonar_" + std::to_string(i);
     sensor_ = "{plugin: ros2_robot, domain: " + domain +

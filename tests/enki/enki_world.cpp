@@ -126,7 +126,7 @@ class EnkiWorld : public p2os_robot::PioneerBody {
 
 }  // namespace
 
-std::unique_ptr<p2os_robot::PioneerBody> two_rooms(const std::filesystem::path& log) {
+std::unique_ptr<p2os_robot::PioneerBody> pioneer_in_two_rooms(const std::filesystem::path& log) {
   return std::make_unique<EnkiWorld>(log);
 }
 

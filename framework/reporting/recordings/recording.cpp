@@ -11,8 +11,8 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kAtOnce = std::size_t{1} << 16U;
-constexpr double kEvery_s = 5.0;
+constexpr std::size_t kMaxWaitingBytes = std::size_t{1} << 16U;
+constexpr double kMaxUnwritten_s = 5.0;
 
 void append(std::string& text, std::string_view separator, std::initializer_list<double> values) {
   for (const double value : values) {
@@ -71,7 +71,7 @@ void RunRecording::on(const Event& event, const MissionView& view) {
   if (!std::holds_alternative<TickDone>(event) || view.world.observation == nullptr) return;
   write(*view.world.observation, view.truth);
   const double stamp_s = view.world.observation->stamp_s;
-  if (text_.size() < kAtOnce && std::abs(stamp_s - written_s_) < kEvery_s) return;
+  if (text_.size() < kMaxWaitingBytes && std::abs(stamp_s - written_s_) < kMaxUnwritten_s) return;
   written_s_ = stamp_s;
   write_text();
 }
@@ -173,12 +173,12 @@ void RunRecording::write_scan(std::span<const RangeReading> rays, const Pose2& T
 }
 
 void RunRecording::write_text() {
-  if (text_.empty()) return;
+  const std::string text = std::exchange(text_, {});  // what fails is not written a second time
+  if (text.empty()) return;
   in_recording(file_name_, [&] {
-    out_.append(is_packed_ ? gzip_member(text_) : text_);
+    out_.append(is_packed_ ? gzip_member(text) : text);
     out_.flush();
   });
-  text_.clear();
 }
 
 }  // namespace cairn

@@ -1,7 +1,7 @@
 // Messages as a distribution of ROS 2 defines them, by @foxglove/rosmsg2-serialization, through our types and back:
 // node distributions.mjs NODE_MODULES DISTRIBUTION OUR_IDL ROUND_TRIP DOMAIN
 // Prints {"TYPE": {"fields", "read", "written"}}. fields: ours are theirs, by name, type and order. read: what Cairn reads
-// of their messages is what they wrote. written: what Cairn writes says to their reader what it shall.
+// of their messages is what they wrote. written: their reader decodes what was sent.
 // Each is "same" or what is not.
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';

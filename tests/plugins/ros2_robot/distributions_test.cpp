@@ -23,18 +23,18 @@ bool has_packages(const fs::path& modules) {
 }
 
 json passed_through(const std::string& modules, const std::string& distribution) {
-  const fs::path said = fs::path(testing::TempDir()) / ("distribution_" + std::to_string(::getpid()) + ".json");
+  const fs::path found_file = fs::path(testing::TempDir()) / ("distribution_" + std::to_string(::getpid()) + ".json");
   const std::string script = CAIRN_SOURCE_DIR "/tests/plugins/ros2_robot/distributions.mjs";
   const std::string idl = CAIRN_SOURCE_DIR "/plugins/ros2_robot/ros2.idl";
-  const std::string domain = std::to_string(1 + ::getpid() % 200);
+  const std::string domain = std::to_string(1 + ::getpid() % 99);
   std::string command = "node";
   for (const std::string& word : {script, modules, distribution, idl, std::string(CAIRN_ROUND_TRIP), domain})
     command += " '" + word + "'";
-  EXPECT_EQ(std::system((command + " > '" + said.string() + "'").c_str()), 0);  // NOLINT(cert-env33-c): its own words
-  std::ifstream in(said);
+  EXPECT_EQ(std::system((command + " > '" + found_file.string() + "'").c_str()), 0);  // NOLINT(cert-env33-c)
+  std::ifstream in(found_file);
   const json found = json::parse(in, nullptr, false);
   in.close();
-  fs::remove(said);
+  fs::remove(found_file);
   return found;
 }
 

@@ -123,6 +123,7 @@ int main(int count, char** arguments) {
     const Participant network(choice);
     std::map<std::string, std::unique_ptr<Type>> known;
     for (std::string name, bytes; read_counted(name) && read_counted(bytes);) {
+      if (!types().contains(name)) throw std::runtime_error(name + " is no topic's type");
       auto& type = known[name];
       if (!type) type = std::make_unique<Type>(network, name, *types().at(name));
       write_counted(type->passed_through(bytes));
