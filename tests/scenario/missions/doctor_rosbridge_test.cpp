@@ -45,11 +45,10 @@ TEST(LiveRecording, OfARobotBehindRosbridgePlayedBackGivesTheSameMapBitForBit) {
   const rosbridge_robot::RosbridgeServer server;
   const auto mission = doctor_mission("rosbridge_recording", bridged_sensor(server));
   const auto folder = mission.parent_path();
-  const Finished first = run_cairn(
-      {"run", mission.string(), "--set", "steps=[wait: 3]", "--set", "record=recorded.log", "--out", folder.string()});
+  const Finished first = run_cairn({"run", mission.string(), "--set", "steps=[wait: 3]", "--out", folder.string()});
   ASSERT_EQ(first.exit_status, 0) << first.out << first.err;
   write_text(folder / "replay.yaml",
-             "mission: replay\nrobot: robot.yaml\nsensor: {plugin: carmen_log, file: recorded.log}\n"
+             "mission: replay\nrobot: robot.yaml\nsensor: {plugin: carmen_log, file: rosbridge_recording.log.gz}\n"
              "localizer: {plugin: odometry_compass}\nmap: {plugin: muriel}\n");
   const Finished second = run_cairn({"run", (folder / "replay.yaml").string(), "--out", folder.string()});
   ASSERT_EQ(second.exit_status, 0) << second.out << second.err;
