@@ -58,5 +58,30 @@ TEST(LiveRecording, OfARobotBehindRosbridgePlayedBackGivesTheSameMapBitForBit) {
   EXPECT_TRUE(recorded.grid == replayed.grid) << "OG1 differs";
 }
 
+TEST(LiveRecording, AnotherRunKeepsTheEarlierOneAndNoneMakesNone) {
+  const rosbridge_robot::RosbridgeServer server;
+  const auto mission = doctor_mission("rosbridge_twice", bridged_sensor(server));
+  const auto folder = mission.parent_path() / "out";
+  const std::vector<std::string> run{"run", mission.string(), "--set", "steps=[wait: 1]", "--out", folder.string()};
+  ASSERT_EQ(run_cairn(run).exit_status, 0);
+  const std::string first = text_of_file(folder / "rosbridge_twice.log.gz");
+  ASSERT_EQ(run_cairn(run).exit_status, 0);
+  EXPECT_EQ(text_of_file(folder / "rosbridge_twice.log.gz"), first);
+  EXPECT_TRUE(std::filesystem::exists(folder / "rosbridge_twice.2.log.gz"));
+  std::vector<std::string> unrecorded = run;
+  unrecorded.insert(unrecorded.end(), {"--set", "record=none"});
+  ASSERT_EQ(run_cairn(unrecorded).exit_status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "rosbridge_twice.3.log.gz"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST(LiveRecording, ASimulationMakesNone) {
+  const auto folder = fresh_folder("simulation_recording");
+  const Finished run = run_cairn(
+      {"run", source_folder() + "/config/missions/office.yaml", "--set", "steps=[wait: 1]", "--out", folder.string()});
+  ASSERT_EQ(run.exit_status, 0) << run.out << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "office.log.gz"));
+}
+
 }  // namespace
 }  // namespace cairn::testing_program
