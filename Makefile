@@ -37,7 +37,7 @@ package: build
 	@cmake --build --preset release --target cairn_conformance
 	@rm -f build/release/*.deb
 	@cd build/release && cpack >package.log 2>&1 || { cat package.log; exit 1; }
-	@tests/consumer/package_smoke.sh build/release/*.deb
+	@tests/consumer/package_smoke.sh build/release/cairn_*.deb $$(ls build/release/python3-cairn_*.deb 2>/dev/null)
 	@ls -l build/release/*.deb
 
 check: build

@@ -59,4 +59,15 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, python3-numpy")  # charts; modules in Python
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, libgtest-dev")  # to write modules
+if(TARGET cairn_python)  # a package of its own
+  set(CPACK_DEB_COMPONENT_INSTALL ON)
+  set(CPACK_COMPONENTS_ALL Unspecified python3)
+  set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME cairn)
+  set(CPACK_DEBIAN_PYTHON3_PACKAGE_NAME python3-cairn)
+  set(CPACK_DEBIAN_PYTHON3_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON3_PACKAGE_DEPENDS "cairn (= ${PROJECT_VERSION}), ${CAIRN_PYTHON_DEPENDS}")
+  set(CPACK_DEBIAN_PYTHON3_PACKAGE_RECOMMENDS "")
+  set(CPACK_DEBIAN_PYTHON3_PACKAGE_SUGGESTS "python3-matplotlib, ipython3")
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
+endif()
 include(CPack)

@@ -47,6 +47,10 @@ const Pose2& MissionRunner::T_map_start() const {
   return loop_->T_map_start();
 }
 
+bool MissionRunner::has_drive() const {
+  return loop_->has_drive();
+}
+
 MissionResult MissionRunner::run() {
   watch();
   if (control_ != nullptr) control_->publish(loop_->last_status());

@@ -93,6 +93,8 @@ class MissionRunner {
   [[nodiscard]] const std::vector<std::string>& listener_faults() const;
   // Where the robot begins: as the mission says, or the sensor.
   [[nodiscard]] const Pose2& T_map_start() const;
+  // A robot is driven, simulated or real; else a log is played back.
+  [[nodiscard]] bool has_drive() const;
   // The mission runs in a thread of its own, watched by this one every 20 ms: when no tick has ended for the collision
   // monitor's stop_after_s, the wheels are stopped until one does; a module whose call does not return within the
   // mission's watchdog_s (0: never), or that calls exit(), ends the mission (outcome module_fault) and is left behind.

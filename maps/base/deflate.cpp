@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <limits>
+#include <new>
 #include <stdexcept>
 
 namespace cairn {
@@ -35,6 +37,25 @@ std::string inflated(std::string_view packed, std::size_t size) {
   if (code != Z_OK || unpacked != size)
     throw std::invalid_argument("its bytes do not unpack to " + std::to_string(size) + " bytes");
   return bytes;
+}
+
+std::string gzip_member(std::string_view bytes) {
+  constexpr int kGzipWindow = 15 + 16;  // the largest window, with gzip's header and no time in it
+  constexpr int kMemory = 8;
+  z_stream stream{};
+  if (bytes.size() > std::numeric_limits<uInt>::max()) throw std::length_error("gzip_member: more than 4 GB at once");
+  if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string packed(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = const_cast<Bytef*>(zlib_bytes(bytes));  // which zlib only reads
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int code = deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (code != Z_STREAM_END) throw std::logic_error("zlib could not pack " + std::to_string(bytes.size()) + " bytes");
+  return packed;
 }
 
 }  // namespace cairn

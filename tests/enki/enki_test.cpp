@@ -1,4 +1,5 @@
-// A Pioneer in a world that is not ours, by its serial protocol: looked at, driven, and left alone.
+// A Pioneer in a world that is not ours, by its serial protocol and on a ROS 2 network: looked at, driven, and left
+// alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -20,7 +21,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr double kStands_s = 0.5;
-const std::string kProgram = std::string(CAIRN_BINARY_DIR) + "/bin/enki_pioneer";
 
 struct Tick {
   double monotonic_s = 0.0;
@@ -31,16 +31,22 @@ struct Tick {
   double touches = 0.0;
 };
 
-class EnkiPioneer : public testing::Test {
+class EnkiRobot : public testing::Test {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(kProgram)) GTEST_SKIP() << "libenki-dev is not installed";
+  // The program is there once its robot is.
+  void begin(const std::string& name, const std::vector<std::string>& words, const std::filesystem::path& appears) {
+    const std::string program = std::string(CAIRN_BINARY_DIR) + "/bin/" + name;
+    if (!std::filesystem::exists(program))
+      GTEST_SKIP() << name << " is not built: libenki-dev, or libfastrtps-dev and libfastcdr-dev, is not installed";
+    std::vector<const char*> arguments{program.c_str()};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    arguments.push_back(nullptr);
     process_ = ::fork();
     if (process_ == 0) {
-      ::execl(kProgram.c_str(), kProgram.c_str(), line_.c_str(), log_.c_str(), nullptr);
+      ::execv(program.c_str(), const_cast<char* const*>(arguments.data()));
       ::_exit(127);
     }
-    ASSERT_TRUE(wait_for([&] { return std::filesystem::exists(line_); }));
+    ASSERT_TRUE(wait_for([&] { return std::filesystem::exists(appears); }));
   }
   void TearDown() override {
     if (process_ > 0) ::kill(process_, SIGKILL);
@@ -48,13 +54,12 @@ class EnkiPioneer : public testing::Test {
     std::filesystem::remove_all(folder_);
   }
   [[nodiscard]] std::vector<std::string> of_mission(const std::string& command, const std::string& steps) const {
-    write_text(
-        folder_ / "mission.yaml",
-        "mission: enki\nrobot: " + source_folder() +
-            "/config/robots/pioneer3dx_serial.yaml\nsensor: {plugin: p2os_robot, device: " + line_.string() +
-            "}\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel}\ncollision_monitor: {blind_s: 0.4}\n"
-            "steps:\n  - " +
-            steps + "\n");
+    write_text(folder_ / "mission.yaml",
+               "mission: enki\nrobot: " + source_folder() +
+                   "/config/robots/pioneer3dx_serial.yaml\nsensor: " + sensor_ +
+                   "\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel}\ncollision_monitor: {blind_s: 0.4}\n"
+                   "steps:\n  - " +
+                   steps + "\n");
     if (command == "run") return {"run", (folder_ / "mission.yaml").string(), "--out", (folder_ / "out").string()};
     return {"doctor", "live", (folder_ / "mission.yaml").string(), "--json"};
   }
@@ -73,15 +78,41 @@ class EnkiPioneer : public testing::Test {
     }
     return all;
   }
+  void expect_to_arrive() const;
+  void expect_to_stand_when_the_mission_cannot_drive() const;
   [[nodiscard]] bool is_driving() const {
     const std::vector<Tick> all = ticks();
     return !all.empty() && all.back().v_mps > 0.1;
   }
 
   const std::filesystem::path folder_ = fresh_folder("enki");
-  const std::filesystem::path line_ = folder_ / "pioneer";
   const std::filesystem::path log_ = folder_ / "wheels.csv";
+  std::string sensor_;
   pid_t process_ = -1;
+};
+
+class EnkiPioneer : public EnkiRobot {
+ protected:
+  void SetUp() override {
+    sensor_ = "{plugin: p2os_robot, device: " + line_.string() + "}";
+    begin("enki_pioneer", {line_.string(), log_.string()}, line_);
+  }
+  const std::filesystem::path line_ = folder_ / "pioneer";
+};
+
+class EnkiOnRos2 : public EnkiRobot {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(std::string(CAIRN_BINARY_DIR) + "/lib/cairn/ros2_robot.so"))
+      GTEST_SKIP() << "cyclonedds-dev is not installed";
+    const std::string domain = std::to_string(200 + ::getpid() % 30);
+    std::string frames = "sonar_0";
+    for (int i = 1; i < 16; ++i) frames += ", sonar_" + std::to_string(i);
+    sensor_ = "{plugin: ros2_robot, domain: " + domain +
+              ", network: localhost, odometry: /odom, mounting: file, ranges: [{topic: /sonar, frames: [" + frames +
+              "]}]}";
+    begin("enki_ros2", {domain, log_.string(), (folder_ / "latencies.txt").string()}, log_);
+  }
 };
 
 TEST_F(EnkiPioneer, TheDoctorSeesAndWigglesIt) {
@@ -103,7 +134,7 @@ TEST_F(EnkiPioneer, TheDoctorSeesAndWigglesIt) {
   EXPECT_NEAR(last.y_m, 0.7, 0.05);
 }
 
-TEST_F(EnkiPioneer, DrivesWhereItIsToAndTouchesNothing) {
+void EnkiRobot::expect_to_arrive() const {
   const Finished finished = run_cairn(of_mission("run", "drive: {points_m: [[0, 0], [0, 1.2]], speed_mps: 0.3}"));
   EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
   const Tick last = ticks().back();
@@ -112,7 +143,7 @@ TEST_F(EnkiPioneer, DrivesWhereItIsToAndTouchesNothing) {
   EXPECT_EQ(last.touches, 0.0);
 }
 
-TEST_F(EnkiPioneer, StandsWhenTheMissionIsKilledOrHalted) {
+void EnkiRobot::expect_to_stand_when_the_mission_cannot_drive() const {
   for (const int signal : {SIGSTOP, SIGKILL}) {
     const Background mission(of_mission("run", "drive: {points_m: [[0, 0], [0, 2], [0, 0], [0, 2]], speed_mps: 0.3}"),
                              folder_ / "mission.txt");
@@ -126,6 +157,22 @@ TEST_F(EnkiPioneer, StandsWhenTheMissionIsKilledOrHalted) {
     EXPECT_LT(stood_s - moment_s, kStands_s) << signal;
     mission.send(SIGKILL);
   }
+}
+
+TEST_F(EnkiPioneer, DrivesWhereItIsToAndTouchesNothing) {
+  expect_to_arrive();
+}
+
+TEST_F(EnkiOnRos2, DrivesWhereItIsToAndTouchesNothing) {
+  expect_to_arrive();
+}
+
+TEST_F(EnkiPioneer, StandsWhenTheMissionIsKilledOrHalted) {
+  expect_to_stand_when_the_mission_cannot_drive();
+}
+
+TEST_F(EnkiOnRos2, StandsWhenTheMissionIsKilledOrHalted) {
+  expect_to_stand_when_the_mission_cannot_drive();
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ class MissionLoop {
   [[nodiscard]] const LandmarkTracker& tracker() const { return perception_.tracker(); }
   [[nodiscard]] std::vector<StageTime> times() const { return modules_.clock.times(); }
   [[nodiscard]] ClusterTree clusters() const { return planning_.last_clusters(); }
+  [[nodiscard]] bool has_drive() const { return modules_.has_drive; }
   [[nodiscard]] const Pose2& T_map_start() const { return modules_.T_map_start; }
   // exit() was called in a thread of a module's own, which never leaves it.
   [[nodiscard]] bool exit_was_called_elsewhere() const { return fatal_ends_.exit_was_called_elsewhere(); }

@@ -34,6 +34,7 @@ StagedModules::StagedModules(const MissionModules& modules, const Mission& missi
   for (std::size_t i = 0; i < nodes.size(); ++i)
     behaviours.push_back(staged(modules.behaviours[i], "behaviour", nodes[i]->choice));
   drive = clock.add("drive", config.sensor.name);
+  has_drive = sensor && sensor.call([](Sensor& source) { return source.drive(); }) != nullptr;
   if (MissionDisplay* const shown = sensor ? sensor.call([](Sensor& source) { return source.display(); }) : nullptr)
     display = {sensor.part(shown), clock, clock.add("display", config.sensor.name)};
 }

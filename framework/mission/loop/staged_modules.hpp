@@ -45,6 +45,7 @@ struct StagedModules {
   std::vector<Staged<Behaviour>> behaviours;  // in the order of behaviours_of()
   StageClock::Id drive = StageClock::kHost;
   Staged<MissionDisplay> display;  // may be none
+  bool has_drive = false;          // else the sensor plays back what others have driven
   Pose2 T_map_start;
 };
 

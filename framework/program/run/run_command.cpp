@@ -236,6 +236,21 @@ class RunResults {
   RunPictures pictures_;
 };
 
+constexpr const char* kNoRecording = "none";
+
+// What a real robot has seen cannot be seen again: it is recorded unless the mission says otherwise, under a name that
+// no earlier run has used.
+void choose_recording(MissionConfig& config, const std::filesystem::path& folder, bool is_real) {
+  if (config.record == kNoRecording) {
+    config.record.clear();
+    return;
+  }
+  if (!is_real || !config.record.empty()) return;
+  config.record = config.mission + ".log.gz";
+  for (int i = 2; config.record == config.record_mcap || std::filesystem::exists(folder / config.record); ++i)
+    config.record = fmt::format("{}.{}.log.gz", config.mission, i);
+}
+
 MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
                                  RunReport& report, McapRecording* mcap, WatchSource& watched, std::ostream& people) {
   std::optional<RunRecording> recording;
@@ -282,6 +297,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
+  choose_recording(mission.config, command.out, runner.has_drive() && !mission.world);
   if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
   watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },

@@ -5,10 +5,14 @@
 
 #include "framework/reporting/recordings/recording_errors.hpp"
 #include "framework/reporting/recordings/scan_rays.hpp"
+#include "maps/base/deflate.hpp"
 #include "maps/base/source_text.hpp"
 
 namespace cairn {
 namespace {
+
+constexpr std::size_t kMaxWaitingBytes = std::size_t{1} << 16U;
+constexpr double kMaxUnwritten_s = 5.0;
 
 void append(std::string& text, std::string_view separator, std::initializer_list<double> values) {
   for (const double value : values) {
@@ -51,7 +55,9 @@ bool is_same_transducer(const RangeReading& a, const RangeReading& b) {
 }  // namespace
 
 RunRecording::RunRecording(const std::filesystem::path& file, const Pose2& T_map_start)
-    : file_name_(file.string()), out_(in_recording(file_name_, [&] { return GrowingFile(file); })) {
+    : file_name_(file.string()),
+      is_packed_(file.extension() == ".gz"),
+      out_(in_recording(file_name_, [&] { return GrowingFile(file); })) {
   text_ =
       "# CARMEN log, written by cairn\n"
       "# message formats: PARAM ODOM TRUEPOS SONAR ROBOTLASER1; what the PARAM cairn_ lines say: docs/logs.md\n"
@@ -59,15 +65,19 @@ RunRecording::RunRecording(const std::filesystem::path& file, const Pose2& T_map
   exchange::append_number(text_, T_map_start.x_m);
   append(text_, ",", {T_map_start.y_m, T_map_start.theta_rad});
   text_ += " 0 cairn 0\n";
-  flush_text();
 }
 
 void RunRecording::on(const Event& event, const MissionView& view) {
-  if (std::holds_alternative<TickDone>(event) && view.world.observation != nullptr)
-    write(*view.world.observation, view.truth);
+  if (!std::holds_alternative<TickDone>(event) || view.world.observation == nullptr) return;
+  write(*view.world.observation, view.truth);
+  const double stamp_s = view.world.observation->stamp_s;
+  if (text_.size() < kMaxWaitingBytes && std::abs(stamp_s - written_s_) < kMaxUnwritten_s) return;
+  written_s_ = stamp_s;
+  write_text();
 }
 
 void RunRecording::close() {
+  write_text();
   in_recording(file_name_, [&] { out_.close(); });
 }
 
@@ -101,7 +111,6 @@ void RunRecording::write(const Observation& observation, const std::optional<Gro
   }
   text_ += end;
   write_ranges(observation, end);
-  flush_text();
 }
 
 void RunRecording::write_new_sensors(const Observation& observation, std::string_view end) {
@@ -163,9 +172,13 @@ void RunRecording::write_scan(std::span<const RangeReading> rays, const Pose2& T
   text_ += end;
 }
 
-void RunRecording::flush_text() {
-  in_recording(file_name_, [&] { out_.append(text_); });
-  text_.clear();
+void RunRecording::write_text() {
+  const std::string text = std::exchange(text_, {});  // what fails is not written a second time
+  if (text.empty()) return;
+  in_recording(file_name_, [&] {
+    out_.append(is_packed_ ? gzip_member(text) : text);
+    out_.flush();
+  });
 }
 
 }  // namespace cairn

@@ -16,10 +16,11 @@ namespace cairn {
 
 class RunRecording : public Listener {
  public:
-  // Throws std::runtime_error when the file cannot be written.
+  // A file whose name ends in .gz is packed by gzip. Throws std::runtime_error when the file cannot be written.
   RunRecording(const std::filesystem::path& file, const Pose2& T_map_start);
 
-  // Writes one observation a tick. Throws std::runtime_error when the disk takes no more.
+  // Writes one observation a tick. What a killed program leaves lacks at most the last five seconds, and can be read.
+  // Throws std::runtime_error when the disk takes no more.
   void on(const Event& event, const MissionView& view) override;
   // The last bytes go to the disk. Throws like on().
   void close();
@@ -31,11 +32,13 @@ class RunRecording : public Listener {
   void write_ranges(const Observation& observation, std::string_view end);
   void write_sonars(std::span<const RangeReading> ranges, std::string_view end);
   void write_scan(std::span<const RangeReading> rays, const Pose2& T_odom_robot, std::string_view end);
-  void flush_text();
+  void write_text();
 
   std::string file_name_;
+  bool is_packed_;
   GrowingFile out_;
-  std::string text_;
+  std::string text_;                              // not yet written
+  double written_s_ = -1e9;                       // stamp of the last observation in the file
   std::unordered_map<std::string, int> numbers_;  // of transducers, by their values as text
   // The same of each sensor as it was last: a laser's beams come again and again.
   std::unordered_map<int, std::pair<RangeReading, int>> last_numbers_;

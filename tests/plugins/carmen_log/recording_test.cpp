@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "maps/base/source_text.hpp"
 #include "plugins/carmen_log/carmen_log.hpp"
 #include "tests/plugins/log_files.hpp"
 
@@ -120,6 +121,40 @@ TEST(Recording, GivesEveryObservationBackToTheLastBit) {
   const auto seen = played(file, start);
   expect_same(seen, observations);
   EXPECT_EQ(start, begun);
+}
+
+TEST(Recording, PackedByGzipItGivesTheSame) {
+  const log_files::LogFolder folder;
+  const auto plain = folder.write("a.log", "");
+  const auto packed = folder.write("a.log.gz", "");
+  const std::vector<Recorded> observations = random_observations();
+  record(plain, {}, observations);
+  record(packed, {}, observations);
+  EXPECT_LT(std::filesystem::file_size(packed), std::filesystem::file_size(plain) / 2);
+  EXPECT_EQ(exchange::text_of_file(packed), exchange::text_of_file(plain));
+  std::optional<Pose2> start;
+  expect_same(played(packed, start), observations);
+}
+
+// As a program that is killed leaves it.
+TEST(Recording, PackedByGzipItLacksFiveSecondsAtMostWhenItWasNotClosed) {
+  const log_files::LogFolder folder;
+  const auto file = folder.write("a.log.gz", "");
+  RunRecording recording(file, {});
+  const OccupancyGrid grid(0.05, 4.0);
+  const LandmarkGraph graph;
+  const RobotModel robot;
+  Recorded seen;
+  for (int i = 0; i < 200; ++i) {
+    seen.stamp_s = 0.1 * i;
+    seen.ranges = {{{0.1, 0.2, 0.25}, 0.25, 0.1, 5.0, 1.0 + 0.01 * i, 0}};
+    const WorldView world{grid, graph, robot, {}, seen.stamp_s, &seen};
+    recording.on(TickDone{}, {world});
+  }
+  std::optional<Pose2> start;
+  const auto left = played(file, start);
+  ASSERT_GE(left.size(), 150U);
+  EXPECT_EQ(left[149].ranges[0].range_m, 1.0 + 0.01 * 149);
 }
 
 TEST(Recording, ASensorWithoutANearestDistanceKeepsItsTooNear) {

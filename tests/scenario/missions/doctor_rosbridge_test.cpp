@@ -45,11 +45,10 @@ TEST(LiveRecording, OfARobotBehindRosbridgePlayedBackGivesTheSameMapBitForBit) {
   const rosbridge_robot::RosbridgeServer server;
   const auto mission = doctor_mission("rosbridge_recording", bridged_sensor(server));
   const auto folder = mission.parent_path();
-  const Finished first = run_cairn(
-      {"run", mission.string(), "--set", "steps=[wait: 3]", "--set", "record=recorded.log", "--out", folder.string()});
+  const Finished first = run_cairn({"run", mission.string(), "--set", "steps=[wait: 3]", "--out", folder.string()});
   ASSERT_EQ(first.exit_status, 0) << first.out << first.err;
   write_text(folder / "replay.yaml",
-             "mission: replay\nrobot: robot.yaml\nsensor: {plugin: carmen_log, file: recorded.log}\n"
+             "mission: replay\nrobot: robot.yaml\nsensor: {plugin: carmen_log, file: rosbridge_recording.log.gz}\n"
              "localizer: {plugin: odometry_compass}\nmap: {plugin: muriel}\n");
   const Finished second = run_cairn({"run", (folder / "replay.yaml").string(), "--out", folder.string()});
   ASSERT_EQ(second.exit_status, 0) << second.out << second.err;
@@ -57,6 +56,31 @@ TEST(LiveRecording, OfARobotBehindRosbridgePlayedBackGivesTheSameMapBitForBit) {
   const SavedMap replayed = load_map((folder / "replay.cairn").string());
   EXPECT_GT(recorded.grid.bounds().width(), 10);
   EXPECT_TRUE(recorded.grid == replayed.grid) << "OG1 differs";
+}
+
+TEST(LiveRecording, AnotherRunKeepsTheEarlierOneAndNoneMakesNone) {
+  const rosbridge_robot::RosbridgeServer server;
+  const auto mission = doctor_mission("rosbridge_twice", bridged_sensor(server));
+  const auto folder = mission.parent_path() / "out";
+  const std::vector<std::string> run{"run", mission.string(), "--set", "steps=[wait: 1]", "--out", folder.string()};
+  ASSERT_EQ(run_cairn(run).exit_status, 0);
+  const std::string first = text_of_file(folder / "rosbridge_twice.log.gz");
+  ASSERT_EQ(run_cairn(run).exit_status, 0);
+  EXPECT_EQ(text_of_file(folder / "rosbridge_twice.log.gz"), first);
+  EXPECT_TRUE(std::filesystem::exists(folder / "rosbridge_twice.2.log.gz"));
+  std::vector<std::string> unrecorded = run;
+  unrecorded.insert(unrecorded.end(), {"--set", "record=none"});
+  ASSERT_EQ(run_cairn(unrecorded).exit_status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "rosbridge_twice.3.log.gz"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST(LiveRecording, ASimulationMakesNone) {
+  const auto folder = fresh_folder("simulation_recording");
+  const Finished run = run_cairn(
+      {"run", source_folder() + "/config/missions/office.yaml", "--set", "steps=[wait: 1]", "--out", folder.string()});
+  ASSERT_EQ(run.exit_status, 0) << run.out << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "office.log.gz"));
 }
 
 }  // namespace

@@ -95,11 +95,23 @@ async function watch(page) {
   await status_holds(page, 'has ended: cancelled. To browse it: cairn view ');
 }
 
+// What is drawn over the map comes later than the map.
+async function settled_free_of(page) {
+  let free = -1;
+  for (let i = 0; i < 30; ++i) {
+    const now = await free_of(page);
+    if (now === free) break;
+    free = now;
+    await page.waitForTimeout(500);
+  }
+  return free;
+}
+
 async function browse(page) {
   await status_holds(page, 'Drag the time');
   for (let i = 0; i < 100 && await colours_of(page) <= 20; ++i) await page.waitForTimeout(50);
   check(await colours_of(page) > 20, 'the map is blank');
-  const end_s = await seconds_of(page), free_at_end = await free_of(page);
+  const end_s = await seconds_of(page), free_at_end = await settled_free_of(page);
   await page.locator('#slider').focus();
   await page.keyboard.press('Home');
   for (let i = 0; i < 100 && await free_of(page) > free_at_end / 2; ++i) await page.waitForTimeout(50);
