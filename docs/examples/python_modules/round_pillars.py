@@ -7,7 +7,7 @@ SURE = 0.62  # log-odds, nat: beyond it a cell is occupied, below its negative f
 
 
 class RoundPillars:
-    def __init__(self, context, category="pillar", diameter_m=0.5, tolerance_m=0.3, tau_match=0.6):
+    def __init__(self, context, category="pillar", diameter_m=0.5, tolerance_m=0.3, tau_match=0.9):
         self.category = category
         self.radius_m = diameter_m / 2
         self.ground_m = self.radius_m + tolerance_m / 2
