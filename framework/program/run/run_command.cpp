@@ -106,7 +106,7 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
   if (result.localisation) out << "  trust       " << trust_text(*result.localisation) << "\n";
   out << fmt::format("  readings    {}, {}, {}, {}\n", result.readings, counted(result.matchings, "matching"),
                      counted(runner.graph().landmarks().size(), "landmark"), counted_routes(runner.graph()));
-  const double speed = result.time_s / std::max(wall_s, 1e-9);
+  const double speed = (result.time_s - result.resumed_s.value_or(0.0)) / std::max(wall_s, 1e-9);
   out << fmt::format("  took        {:.1f} s, {:.{}f} x real time\n", wall_s, speed, speed < 10.0 ? 1 : 0);
   if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
   if (!mission.config.record_mcap.empty())
@@ -238,17 +238,26 @@ class RunResults {
 
 constexpr const char* kNoRecording = "none";
 
-// What a real robot has seen cannot be seen again: it is recorded unless the mission says otherwise, under a name that
-// no earlier run has used.
-void choose_recording(MissionConfig& config, const std::filesystem::path& folder, bool is_real) {
-  if (config.record == kNoRecording) {
+// The name, or the first that no earlier run has used: run.mcap, run.2.mcap, ...
+std::string unused_name(const std::filesystem::path& folder, const std::string& name, const std::string& other) {
+  const std::size_t end = std::min(name.find('.', 1), name.size());
+  std::string unused = name;
+  for (int i = 2; unused == other || std::filesystem::exists(folder / unused); ++i)
+    unused = fmt::format("{}.{}{}", name.substr(0, end), i, name.substr(end));
+  return unused;
+}
+
+// What a real robot has seen cannot be seen again: it is recorded unless the mission says otherwise. Neither that nor
+// what an earlier run of a resumed mission has recorded is replaced.
+void choose_recordings(MissionConfig& config, const RunCommand& command, bool is_real) {
+  if (config.record == kNoRecording)
     config.record.clear();
-    return;
-  }
-  if (!is_real || !config.record.empty()) return;
-  config.record = config.mission + ".log.gz";
-  for (int i = 2; config.record == config.record_mcap || std::filesystem::exists(folder / config.record); ++i)
-    config.record = fmt::format("{}.{}.log.gz", config.mission, i);
+  else if (config.record.empty() && is_real)
+    config.record = unused_name(command.out, config.mission + ".log.gz", config.record_mcap);
+  else if (!config.record.empty() && !command.resume.empty())
+    config.record = unused_name(command.out, config.record, config.record_mcap);
+  if (!config.record_mcap.empty() && !command.resume.empty())
+    config.record_mcap = unused_name(command.out, config.record_mcap, config.record);
 }
 
 MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
@@ -297,7 +306,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
-  choose_recording(mission.config, command.out, runner.has_drive() && !mission.world);
+  choose_recordings(mission.config, command, runner.has_drive() && !mission.world);
   if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
   watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },
