@@ -115,6 +115,16 @@ TEST_F(Control, SignalsPauseAndLetGoOn) {
   EXPECT_EQ(run.exit_status(), 1);
 }
 
+// As timeout(1) does: to the program and to its group.
+TEST_F(Control, ReportedTwoTerminationsAtOnceAreOne) {
+  Conversation run(run_of(mission_in(folder_, "[wait: 1000]"), {"--realtime"}));
+  (void)status_in(out_, "running");
+  run.send(SIGTERM);
+  run.send(SIGTERM);
+  EXPECT_EQ(run.exit_status(), 1);
+  EXPECT_TRUE(fs::exists(out_ / "report.json"));
+}
+
 TEST_F(Control, ReportedWhereNothingRunsItSaysSo) {
   const Finished nowhere = run_cairn({"mission", "pause", (folder_ / "no").string()});
   EXPECT_EQ(nowhere.exit_status, 2);
