@@ -152,10 +152,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
       "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
   fields.file_name("record", &C::record,
                    "file in the output folder that gets all observations as a CARMEN log, to be played back by "
-                   "carmen_log; packed by "
-                   "gzip where it ends in .gz. Empty: MISSION.log.gz, or MISSION.2.log.gz where that is there, when a "
-                   "robot is driven "
-                   "and the mission has no world; else none. none: none");
+                   "carmen_log; packed by gzip where it ends in .gz. Empty: MISSION.log.gz, or MISSION.2.log.gz where "
+                   "that is there, when a robot is driven and the mission has no world; else none. none: none");
   fields.file_name("record_mcap", &C::record_mcap,
                    "file in the output folder that gets the run as an MCAP recording, for Foxglove, Rerun and ROS 2");
   fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6},

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,9 +25,8 @@
 #include "framework/program/run/localise.hpp"
 #include "framework/program/run/pictures.hpp"
 #include "framework/program/run/progress_line.hpp"
+#include "framework/program/run/recordings.hpp"
 #include "framework/program/run/viewer.hpp"
-#include "framework/reporting/recordings/mcap_recording.hpp"
-#include "framework/reporting/recordings/recording.hpp"
 #include "framework/reporting/report.hpp"
 #include "framework/reporting/watching/watch_source.hpp"
 #include "framework/safety/fatal_ends.hpp"
@@ -39,36 +37,6 @@
 
 namespace cairn {
 namespace {
-
-void finish(RunRecording& recording) {
-  try {
-    recording.close();
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-  }
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read for the recording");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// With the mission's file, its report and its map. What is missing of them leaves a recording that is whole.
-void finish(McapRecording& recording, const RunCommand& command, const MissionResult& result,
-            const OccupancyGrid* grid) {
-  const auto attach = [&](const std::filesystem::path& file, const char* media_type) {
-    if (std::filesystem::is_regular_file(file)) recording.attach(file.filename().string(), media_type, bytes_of(file));
-  };
-  try {
-    attach(command.mission, "application/yaml");
-    attach(command.out / "report.json", "application/json");
-    if (!result.map_file.empty()) attach(command.out / result.map_file, "application/vnd.sqlite3");
-    recording.close(grid);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-  }
-}
 
 void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGraph& graph) {
   if (graph.landmarks().empty()) return;
@@ -106,7 +74,7 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
   if (result.localisation) out << "  trust       " << trust_text(*result.localisation) << "\n";
   out << fmt::format("  readings    {}, {}, {}, {}\n", result.readings, counted(result.matchings, "matching"),
                      counted(runner.graph().landmarks().size(), "landmark"), counted_routes(runner.graph()));
-  const double speed = result.time_s / std::max(wall_s, 1e-9);
+  const double speed = (result.time_s - result.resumed_s.value_or(0.0)) / std::max(wall_s, 1e-9);
   out << fmt::format("  took        {:.1f} s, {:.{}f} x real time\n", wall_s, speed, speed < 10.0 ? 1 : 0);
   if (!mission.config.record.empty()) out << "  recording   " << (folder / mission.config.record).string() << "\n";
   if (!mission.config.record_mcap.empty())
@@ -236,21 +204,6 @@ class RunResults {
   RunPictures pictures_;
 };
 
-constexpr const char* kNoRecording = "none";
-
-// What a real robot has seen cannot be seen again: it is recorded unless the mission says otherwise, under a name that
-// no earlier run has used.
-void choose_recording(MissionConfig& config, const std::filesystem::path& folder, bool is_real) {
-  if (config.record == kNoRecording) {
-    config.record.clear();
-    return;
-  }
-  if (!is_real || !config.record.empty()) return;
-  config.record = config.mission + ".log.gz";
-  for (int i = 2; config.record == config.record_mcap || std::filesystem::exists(folder / config.record); ++i)
-    config.record = fmt::format("{}.{}.log.gz", config.mission, i);
-}
-
 MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
                                  RunReport& report, McapRecording* mcap, WatchSource& watched, std::ostream& people) {
   std::optional<RunRecording> recording;
@@ -297,7 +250,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
-  choose_recording(mission.config, command.out, runner.has_drive() && !mission.world);
+  choose_recordings(mission.config, command, runner.has_drive() && !mission.world);
   if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
   watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },

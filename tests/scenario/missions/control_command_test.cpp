@@ -11,6 +11,7 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "maps/store/map_store.hpp"
 #include "tests/scenario/program.hpp"
@@ -113,6 +114,17 @@ TEST_F(Control, SignalsPauseAndLetGoOn) {
   (void)status_in(out_, "running");
   run.send(SIGTERM);
   EXPECT_EQ(run.exit_status(), 1);
+}
+
+// As timeout(1) does: to the program and to its group.
+TEST_F(Control, ReportedTwoTerminationsAtOnceAreOne) {
+  Conversation run(run_of(mission_in(folder_, "[wait: 1000]"), {"--realtime"}));
+  (void)status_in(out_, "running");
+  run.send(SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // two that wait are one for the kernel too
+  run.send(SIGTERM);
+  EXPECT_EQ(run.exit_status(), 1);
+  EXPECT_TRUE(fs::exists(out_ / "report.json"));
 }
 
 TEST_F(Control, ReportedWhereNothingRunsItSaysSo) {

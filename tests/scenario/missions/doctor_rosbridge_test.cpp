@@ -83,5 +83,21 @@ TEST(LiveRecording, ASimulationMakesNone) {
   EXPECT_FALSE(std::filesystem::exists(folder / "office.log.gz"));
 }
 
+TEST(LiveRecording, AResumedRunReplacesNone) {
+  const auto folder = fresh_folder("resumed_recording");
+  std::vector<std::string> run{"run", source_folder() + "/config/missions/office.yaml", "--out", folder.string()};
+  for (const char* setting : {"steps=[wait: 1]", "record=run.log", "record_mcap=run.mcap"})
+    run.insert(run.end(), {"--set", setting});
+  ASSERT_EQ(run_cairn(run).exit_status, 0);
+  const std::string log = text_of_file(folder / "run.log");
+  const std::string mcap = text_of_file(folder / "run.mcap");
+  run.insert(run.end(), {"--resume", (folder / "office.cairn").string()});
+  (void)run_cairn(run);
+  EXPECT_EQ(text_of_file(folder / "run.log"), log);
+  EXPECT_EQ(text_of_file(folder / "run.mcap"), mcap);
+  EXPECT_TRUE(std::filesystem::exists(folder / "run.2.log"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run.2.mcap"));
+}
+
 }  // namespace
 }  // namespace cairn::testing_program
