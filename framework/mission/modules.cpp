@@ -56,7 +56,7 @@ std::shared_ptr<Controller> build_controller(const Mission& mission, const Modul
   const ModuleContext context = context_for(mission, library, PluginKind::controller);
   const bool is_default = choice.config.kind == ConfigValue::Kind::null;
   if (!is_default) return build<Controller>(library, choice, context);
-  if (library.find_any(choice.name) == nullptr) return nullptr;
+  if (library.find_of(PluginKind::controller, choice.name) == nullptr) return nullptr;
   PluginChoice usual = choice;
   usual.config.kind = ConfigValue::Kind::map;
   return build<Controller>(library, usual, context);

@@ -72,8 +72,8 @@ std::vector<ConfigError> missing_inputs(const std::vector<TreeNode>& steps, cons
   std::vector<ConfigError> errors;
   std::vector<std::string> given;
   for (const TreeNode* node : behaviours_of(steps)) {
-    const ModuleEntry* entry = library.find_any(node->choice.name);
-    if (entry == nullptr || entry->module->kind != PluginKind::behaviour) continue;
+    const ModuleEntry* entry = library.find_of(PluginKind::behaviour, node->choice.name);
+    if (entry == nullptr) continue;
     const ConfigValue* input = name_in(*node, *entry->module, kInput);
     if (input != nullptr && std::ranges::find(given, input->scalar) == given.end()) {
       const std::string known = joined(given);

@@ -80,7 +80,7 @@ void ModuleLibrary::Files::adopt(std::unique_ptr<LoadedPlugin> plugin) {
 
 void ModuleLibrary::Files::add_modules(File& file, const std::vector<ModuleSummary>& modules) {
   for (const ModuleSummary& module : modules) {
-    if (const Module* taken = find(module.name))
+    if (const Module* taken = find(module.name, module.kind))
       faults_.push_back(file.file.string() + ": the name \"" + printable_excerpt(module.name) + "\" is taken by " +
                         taken->file->file.string());
     else
@@ -88,8 +88,10 @@ void ModuleLibrary::Files::add_modules(File& file, const std::vector<ModuleSumma
   }
 }
 
-ModuleLibrary::Files::Module* ModuleLibrary::Files::find(const std::string& name) {
-  const auto found = std::ranges::find_if(modules_, [&](const Module& module) { return module.summary.name == name; });
+ModuleLibrary::Files::Module* ModuleLibrary::Files::find(const std::string& name, std::optional<PluginKind> kind) {
+  const auto found = std::ranges::find_if(modules_, [&](const Module& module) {
+    return module.summary.name == name && (!kind || share_names(module.summary.kind, *kind));
+  });
   return found == modules_.end() ? nullptr : &*found;
 }
 
@@ -135,9 +137,9 @@ void ModuleLibrary::Files::connect(File& file) {
   }
 }
 
-const ModuleEntry* ModuleLibrary::Files::opened(const std::string& name) {
+const ModuleEntry* ModuleLibrary::Files::opened(const std::string& name, std::optional<PluginKind> kind) {
   const std::lock_guard lock(mutex_);
-  const Module* module = find(name);
+  const Module* module = find(name, kind);
   if (module == nullptr) return nullptr;
   if (!module->file->plugin && !module->file->has_failed) open(*module->file);
   return module->entry.module == nullptr ? nullptr : &module->entry;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ class ModuleLibrary::Files {
   // All of these from any thread.
   [[nodiscard]] std::vector<KnownModule> known();
   [[nodiscard]] std::vector<std::string> faults();
-  // Opens its file. Null: no such module, or the file cannot be opened. What is returned stays where it is.
-  [[nodiscard]] const ModuleEntry* opened(const std::string& name);
+  // Opens its file. Null: no such module, or the file cannot be opened. What is returned stays where it is. Without a
+  // kind: the first one of that name.
+  [[nodiscard]] const ModuleEntry* opened(const std::string& name, std::optional<PluginKind> kind = std::nullopt);
   // The files that were fatal in an earlier trial, once. True: some module may have come.
   [[nodiscard]] bool try_fatal_again();
 
@@ -44,12 +46,12 @@ class ModuleLibrary::Files {
   void add_modules(File& file, const std::vector<ModuleSummary>& modules);
   void open(File& file);
   void connect(File& file);
-  [[nodiscard]] Module* find(const std::string& name);
+  [[nodiscard]] Module* find(const std::string& name, std::optional<PluginKind> kind);
 
   std::shared_ptr<const ModuleTrial> trial_;
   std::mutex mutex_;
   std::deque<File> files_;      // neither is moved when it grows
-  std::deque<Module> modules_;  // no name twice
+  std::deque<Module> modules_;  // no name twice among kinds that share their names
   std::vector<std::string> faults_;
   std::vector<std::filesystem::path> fatal_before_;
 };

@@ -34,8 +34,13 @@ std::vector<KnownModule> ModuleLibrary::known() const {
 std::vector<ModuleEntry> ModuleLibrary::entries() const {
   std::vector<ModuleEntry> all;
   for (const KnownModule& module : known())
-    if (const ModuleEntry* entry = files_->opened(module.name)) all.push_back(*entry);
+    if (const ModuleEntry* entry = files_->opened(module.name, module.kind)) all.push_back(*entry);
   return all;
+}
+
+const ModuleEntry* ModuleLibrary::find_of(PluginKind kind, const std::string& name) const {
+  const ModuleEntry* entry = files_->opened(name, kind);
+  return entry == nullptr && files_->try_fatal_again() ? files_->opened(name, kind) : entry;
 }
 
 const ModuleEntry* ModuleLibrary::find_any(const std::string& name) const {
@@ -49,8 +54,9 @@ std::vector<std::string> ModuleLibrary::faults() const {
 
 const RegisteredModule& ModuleLibrary::find(PluginKind kind, const std::string& name, const SourcePlace& place) const {
   const std::string kind_text(name_of(kind));
-  const ModuleEntry* entry = find_any(name);
+  const ModuleEntry* entry = find_of(kind, name);
   if (entry != nullptr && serves_as(entry->module->kind, kind)) return *entry->module;
+  if (entry == nullptr) entry = find_any(name);
   if (entry != nullptr)
     throw ConfigError(
         place, "\"" + name + "\" is a " + std::string(name_of(entry->module->kind)) + " plugin, not a " + kind_text);
@@ -80,6 +86,10 @@ std::shared_ptr<void> ModuleLibrary::make_any(PluginKind kind, const PluginChoic
 bool serves_as(PluginKind found, PluginKind wanted) {
   if (wanted != PluginKind::planner) return found == wanted;
   return found == PluginKind::planner || found == PluginKind::path_planner || found == PluginKind::route_planner;
+}
+
+bool share_names(PluginKind a, PluginKind b) {
+  return a == b || (serves_as(a, PluginKind::planner) && serves_as(b, PluginKind::planner));
 }
 
 std::vector<std::filesystem::path> module_files(const std::filesystem::path& folder) {

@@ -42,8 +42,11 @@ class ModuleLibrary : public ModuleMaker {
   // The module of that name; where a planner is asked for, a path or route planner will do. Throws ConfigError at the
   // place of the choice: unknown name (nearest one), wrong kind.
   [[nodiscard]] const RegisteredModule& find(PluginKind kind, const std::string& name, const SourcePlace& place) const;
-  // Null: there is none, or its file cannot be opened after all, which is one more fault. Before it answers that there
-  // is none, it tries those files again that were dangerous in an earlier trial.
+  // The module of that name and kind, or of a kind that shares its names. Null: there is none, or its file cannot be
+  // opened after all, which is one more fault. Before it answers that there is none, it tries those files again that
+  // were dangerous in an earlier trial.
+  [[nodiscard]] const ModuleEntry* find_of(PluginKind kind, const std::string& name) const;
+  // The same, of any kind: the first one of that name.
   [[nodiscard]] const ModuleEntry* find_any(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> faults() const;
 
@@ -58,6 +61,8 @@ class ModuleLibrary : public ModuleMaker {
 // Whether a module of kind `found` can be made where one of kind `wanted` is asked for: a path or route planner serves
 // as a planner by itself (adapters/lone_planners.hpp).
 [[nodiscard]] bool serves_as(PluginKind found, PluginKind wanted);
+// Whether a name stands for one module of both kinds at most: the same kind, or all that serve as planners.
+[[nodiscard]] bool share_names(PluginKind a, PluginKind b);
 
 // The *.so files of a folder, sorted by name.
 [[nodiscard]] std::vector<std::filesystem::path> module_files(const std::filesystem::path& folder);

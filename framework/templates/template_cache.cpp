@@ -161,8 +161,8 @@ std::uint64_t hash_of_code(const std::filesystem::path& file) {
 }
 
 // The code of a module, and of the library that holds this function or that of a contour.
-void add_module(KeyText& key, const ModuleLibrary& library, const PluginChoice& choice) {
-  const ModuleEntry* entry = library.find_any(choice.name);
+void add_module(KeyText& key, const ModuleLibrary& library, PluginKind kind, const PluginChoice& choice) {
+  const ModuleEntry* entry = library.find_of(kind, choice.name);
   const bool has_file = entry != nullptr && entry->plugin != nullptr;
   key.add(choice.name, has_file ? hash_of_code(entry->plugin->file) : 0).add_config(choice.config);
 }
@@ -199,8 +199,8 @@ std::string rendering_key(double step_rad, double cell_m, const SensedOptions& o
   for (const double size : sizes) key.add(size);
   for (const double gap_m : gaps_m) key.add(gap_m);
   add_robot(key, robot);
-  add_module(key, library, sensor);
-  add_module(key, library, map);
+  add_module(key, library, PluginKind::sensor, sensor);
+  add_module(key, library, PluginKind::map, map);
   const auto rendering = &distinct_orientations;
   const auto driving = &template_cache_folder;
   add_library_of(key, reinterpret_cast<const void*>(rendering));

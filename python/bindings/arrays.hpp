@@ -1,29 +1,13 @@
 // Arrays of numbers for Python.
 #pragma once
 
-#include <pybind11/numpy.h>
-
-#include <vector>
-
 #include "framework/planning/trajectory.hpp"
-#include "maps/geometry/pose.hpp"
+#include "python/shared/pose_arrays.hpp"
 
 namespace cairn::python {
 
 inline void make_read_only(const pybind11::array& array) {
   pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-}
-
-// (N, 3): x m, y m, heading rad.
-[[nodiscard]] inline pybind11::array_t<double> array_of(const std::vector<Pose2>& poses) {
-  pybind11::array_t<double> array({static_cast<pybind11::ssize_t>(poses.size()), pybind11::ssize_t{3}});
-  double* out = array.mutable_data();
-  for (const Pose2& pose : poses) {
-    *out++ = pose.x_m;
-    *out++ = pose.y_m;
-    *out++ = pose.theta_rad;
-  }
-  return array;
 }
 
 // (N, 6): time s, x m, y m, heading rad, v m/s, w rad/s.

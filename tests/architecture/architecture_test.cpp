@@ -73,6 +73,11 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& be
   return false;
 }
 
+// What the Python package and modules in Python have in common.
+bool is_shared_with_python(const Include& include) {
+  return include.file.starts_with("plugins/python_module/") && include.header.starts_with("python/shared/");
+}
+
 TEST(Architecture, ArrowsBetweenRoomsPointDownOnly) {
   const std::map<std::string, std::vector<std::string>> allowed = {
       {"maps", {"maps"}},
@@ -84,7 +89,7 @@ TEST(Architecture, ArrowsBetweenRoomsPointDownOnly) {
   for (const Include& include : includes()) {
     const std::string from = room_of(include.file);
     const std::string to = room_of(include.header);
-    if (!allowed.contains(from) || !allowed.contains(to)) continue;
+    if (!allowed.contains(from) || !allowed.contains(to) || is_shared_with_python(include)) continue;
     EXPECT_THAT(allowed.at(from), testing::Contains(to)) << include.file << " includes " << include.header;
   }
 }
@@ -228,6 +233,14 @@ TEST(Architecture, ThePythonPackageIsMadeOfTheLibrariesNotOfTheProgram) {
     }
 }
 
+TEST(Architecture, WhatThePackageSharesWithModulesKnowsMapsOnly) {
+  for (const Include& include : includes())
+    if (include.file.starts_with("python/shared/") && !include.angled) {
+      EXPECT_TRUE(starts_with_any(include.header, {"maps/", "python/shared/"}))
+          << include.file << " includes " << include.header;
+    }
+}
+
 TEST(Architecture, TheProgramLinksNoModule) {
   for (const Include& include : includes())
     if (include.file.starts_with("framework/")) {
@@ -265,7 +278,7 @@ TEST(Architecture, EachLibraryIsTouchedOnlyWhereItBelongs) {
        {"framework/behaviour_tree/", "framework/experiments/", "framework/live/", "framework/mission/",
         "framework/planning/", "framework/program/", "framework/reporting/", "maps/base/json_text.cpp",
         "maps/exchange/", "plugins/json_log/", "plugins/rosbridge_robot/"}},
-      {"pybind11/", {"python/bindings/"}},
+      {"pybind11/", {"python/bindings/", "python/shared/", "plugins/python_module/"}},
       {"pugixml.hpp", {"maps/exchange/graphs/graphml_read.cpp"}},
   };
   for (const Include& include : includes())

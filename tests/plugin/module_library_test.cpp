@@ -81,6 +81,31 @@ TEST(ModuleLibrary, TakesModulesThatAreLinkedIn) {
   EXPECT_EQ(library.find_any("odometry_compass")->plugin->file, "(linked in)");
 }
 
+// Of two kinds with one name, as one library may register them.
+template <class Interface>
+void add_nothing(Registrar& registrar, const std::string& summary) {
+  registrar.add<Interface, NoConfig>(
+      "twin", summary, [](const NoConfig&, const ContextOf<Interface>&) { return std::unique_ptr<Interface>(); });
+}
+
+TEST(ModuleLibrary, ANameIsThatOfOneModuleAKind) {
+  Registrar registrar;
+  add_nothing<Sensor>(registrar, "a sensor");
+  add_nothing<Localizer>(registrar, "a localizer");
+  add_nothing<PathPlanner>(registrar, "a path planner");
+  add_nothing<Planner>(registrar, "a planner, which a path planner serves as");
+  add_nothing<Sensor>(registrar, "another sensor");
+  ModuleLibrary library({});
+  library.add("(linked in)", registrar);
+  EXPECT_EQ(library.find(PluginKind::sensor, "twin", {}).summary, "a sensor");
+  EXPECT_EQ(library.find(PluginKind::localizer, "twin", {}).summary, "a localizer");
+  EXPECT_EQ(library.find(PluginKind::planner, "twin", {}).summary, "a path planner");
+  EXPECT_EQ(library.find_of(PluginKind::detector, "twin"), nullptr);
+  EXPECT_THROW((void)library.find(PluginKind::detector, "twin", {}), ConfigError);
+  EXPECT_EQ(library.entries().size(), 3U);
+  EXPECT_EQ(library.faults().size(), 2U) << "the planner and the second sensor";
+}
+
 TEST(ModuleLibrary, AMissingFolderIsAFault) {
   const ModuleLibrary library({"/nowhere/at/all"});
   EXPECT_THAT(library.faults(), ElementsAre("/nowhere/at/all: no such plugin folder"));

@@ -27,13 +27,22 @@ const ModuleLibrary& shipped_modules() {
   return library;
 }
 
+// Modules in Python are left out where sanitizers are asked for, or Python's headers are not there.
+bool has_all_modules() {
+  return std::ranges::any_of(shipped_modules().entries(),
+                             [](const ModuleEntry& entry) { return std::string(entry.module->name) == "python"; });
+}
+constexpr const char* kLacks = "python_module, which the reference names, was not built";
+
 TEST(Reference, TheMarkdownIsCurrent) {
   EXPECT_THAT(shipped_modules().faults(), testing::IsEmpty());
+  if (!has_all_modules()) GTEST_SKIP() << kLacks;
   EXPECT_TRUE(text_of(kSource / "docs/configuration.md") == reference_markdown(shipped_modules()))
       << "docs/configuration.md" << kUpdate;
 }
 
 TEST(Reference, TheSchemasAreCurrent) {
+  if (!has_all_modules()) GTEST_SKIP() << kLacks;
   for (const SchemaFile& schema : reference_schemas(shipped_modules()))
     EXPECT_TRUE(text_of(kSource / "config/schema" / schema.file_name) == schema.text)
         << "config/schema/" << schema.file_name << kUpdate;
@@ -43,7 +52,8 @@ TEST(Reference, EveryModuleAndEveryOneOfItsSettingsStandsInTheMarkdown) {
   const std::string text = reference_markdown(shipped_modules());
   ASSERT_FALSE(shipped_modules().entries().empty());
   for (const ModuleEntry& entry : shipped_modules().entries()) {
-    const std::size_t at = text.find("\n#### " + entry.module->name + "\n");
+    const std::size_t kind = text.find("\n### " + std::string(name_of(entry.module->kind)) + "\n");
+    const std::size_t at = text.find("\n#### " + entry.module->name + "\n", kind);
     ASSERT_NE(at, std::string::npos) << entry.module->name;
     const std::string section = text.substr(at, text.find("\n#", at + 2) - at);
     EXPECT_THAT(section, testing::HasSubstr(entry.module->summary));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/modules.hpp"
@@ -41,15 +40,19 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 void check_names(CheckedFile& checked, const std::vector<KnownModule>& others) {
   std::vector<std::string>& faults = checked.faults;
   if (checked.modules.empty()) faults.emplace_back("it registers nothing");
-  std::set<std::string> own;
-  for (const ModuleSummary& module : checked.modules) {
+  for (auto at = checked.modules.begin(); at != checked.modules.end(); ++at) {
+    const ModuleSummary& module = *at;
+    const auto clashes = [&](const ModuleSummary& other) {
+      return other.name == module.name && share_names(other.kind, module.kind);
+    };
     const std::string name = printable_excerpt(module.name);
     if (!is_plain_name(module.name))
       faults.push_back("the name \"" + name + "\" is not of lower-case letters, digits and _");
     if (module.summary.empty()) faults.push_back(name + " has no one-line description");
-    if (!own.insert(module.name).second) faults.push_back("it registers the name \"" + name + "\" twice");
+    if (std::any_of(checked.modules.begin(), at, clashes))
+      faults.push_back("it registers the name \"" + name + "\" twice");
     for (const KnownModule& other : others)
-      if (other.name == module.name && !is_same_file(other.file, checked.file))
+      if (clashes(other) && !is_same_file(other.file, checked.file))
         faults.push_back("the name \"" + name + "\" is taken by " + other.file.string());
   }
 }

@@ -38,6 +38,49 @@ std::string first_group(const std::vector<FieldSpec>& fields) {
   return group == fields.end() ? "" : group->key;
 }
 
+// All of that name: one a kind at most. Throws std::runtime_error: none.
+std::vector<ModuleEntry> entries_of(const ModuleLibrary& library, const std::string& name) {
+  std::vector<ModuleEntry> entries;
+  if (const ModuleEntry* first = library.find_any(name)) entries.push_back(*first);
+  std::vector<std::string> names;
+  for (const KnownModule& known : library.known()) {
+    names.push_back(known.name);
+    if (entries.empty() || known.name != name || known.kind == entries.front().module->kind) continue;
+    if (const ModuleEntry* further = library.find_of(known.kind, name)) entries.push_back(*further);
+  }
+  if (entries.empty())
+    throw std::runtime_error("no module \"" + name + "\"" + did_you_mean(name, names) + "; `cairn plugins` lists them");
+  return entries;
+}
+
+ordered_json info_json(const ModuleEntry& entry, const PluginsCommand& command) {
+  const RegisteredModule& module = *entry.module;
+  return {{"kind", std::string(name_of(module.kind))},
+          {"name", module.name},
+          {"summary", module.summary},
+          {"file", entry.plugin->file.string()},
+          {"fields", json_of(group_of(module, command.group))}};
+}
+
+ordered_json infos_json(const std::vector<ModuleEntry>& entries, const PluginsCommand& command) {
+  ordered_json list = ordered_json::array();
+  for (const ModuleEntry& entry : entries) list.push_back(info_json(entry, command));
+  return list;
+}
+
+void print_info(const ModuleEntry& entry, const PluginsCommand& command) {
+  const RegisteredModule& module = *entry.module;
+  const std::vector<FieldSpec>& fields = group_of(module, command.group);
+  std::cout << module.name << ": " << name_of(module.kind) << "\n"
+            << module.summary << "\nfrom " << entry.plugin->file.string() << "\n";
+  if (!module.schema.shorthand.empty() && command.group.empty())
+    std::cout << "a bare value stands for `" << module.schema.shorthand << "`\n";
+  std::cout << "\n" << settings_text(fields, command.all);
+  if (const std::string group = first_group(fields); !command.all && !group.empty())
+    std::cout << "\n`cairn plugins info " << module.name << " " << (command.group.empty() ? "" : command.group + ".")
+              << group << "` lists what stands in a group, --all everything\n";
+}
+
 }  // namespace
 
 int plugins_list(const CommonOptions& common) {
@@ -61,32 +104,17 @@ int plugins_list(const CommonOptions& common) {
 }
 
 int plugins_info(const PluginsCommand& command, const CommonOptions& common) {
-  const std::string& name = command.name;
   const ModuleLibrary library = module_library(common);
-  const ModuleEntry* entry = library.find_any(name);
-  if (entry == nullptr) {
-    std::vector<std::string> names;
-    for (const KnownModule& known : library.known()) names.push_back(known.name);
-    throw std::runtime_error("no module \"" + name + "\"" + did_you_mean(name, names) + "; `cairn plugins` lists them");
-  }
-  const RegisteredModule& module = *entry->module;
-  const std::vector<FieldSpec>& fields = group_of(module, command.group);
+  const std::vector<ModuleEntry> entries = entries_of(library, command.name);
   if (common.json) {
-    print_json({{"kind", std::string(name_of(module.kind))},
-                {"name", module.name},
-                {"summary", module.summary},
-                {"file", entry->plugin->file.string()},
-                {"fields", json_of(fields)}});
+    print_json(entries.size() == 1 ? info_json(entries.front(), command)
+                                   : ordered_json{{"name", command.name}, {"modules", infos_json(entries, command)}});
     return kExitDone;
   }
-  std::cout << module.name << ": " << name_of(module.kind) << "\n"
-            << module.summary << "\nfrom " << entry->plugin->file.string() << "\n";
-  if (!module.schema.shorthand.empty() && command.group.empty())
-    std::cout << "a bare value stands for `" << module.schema.shorthand << "`\n";
-  std::cout << "\n" << settings_text(fields, command.all);
-  if (const std::string group = first_group(fields); !command.all && !group.empty())
-    std::cout << "\n`cairn plugins info " << name << " " << (command.group.empty() ? "" : command.group + ".") << group
-              << "` lists what stands in a group, --all everything\n";
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i > 0) std::cout << "\n";
+    print_info(entries[i], command);
+  }
   return kExitDone;
 }
 

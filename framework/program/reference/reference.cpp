@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "framework/experiments/experiment.hpp"
 #include "framework/files/robot_file.hpp"
@@ -177,8 +178,9 @@ std::string contents(const ModuleLibrary& library) {
   std::string text = "\nFiles:";
   for (const DescribedFile& file : described_files()) text += " [" + called(file) + "](#" + called(file) + "-files)";
   text += " [nodes](#nodes)  \nModules:";
+  std::set<std::string> listed;  // a name of several kinds: the first
   for (const ModuleEntry& entry : library.entries())
-    text += " [" + entry.module->name + "](#" + entry.module->name + ")";
+    if (listed.insert(entry.module->name).second) text += " [" + entry.module->name + "](#" + entry.module->name + ")";
   return text + "\n";
 }
 

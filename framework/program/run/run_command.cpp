@@ -204,6 +204,13 @@ class RunResults {
   RunPictures pictures_;
 };
 
+void let_see(WatchSource& watched, const MissionRunner& runner, const RunReport& report) {
+  watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },
+                   [&runner]() -> const std::vector<Pose2>& { return runner.driven_path(); },
+                   [&report] { return report.events().sentences(); }, [&runner] { return runner.times(); },
+                   [&runner] { return runner.clusters(); }});
+}
+
 MissionResult run_with_listeners(const RunCommand& command, const Mission& mission, MissionRunner& runner,
                                  RunReport& report, McapRecording* mcap, WatchSource& watched, std::ostream& people) {
   std::optional<RunRecording> recording;
@@ -253,10 +260,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   choose_recordings(mission.config, command, runner.has_drive() && !mission.world);
   if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
-  watched.look_by({[&runner] { return runner.status(); }, [&runner] { return runner.node_reports(); },
-                   [&runner]() -> const std::vector<Pose2>& { return runner.driven_path(); },
-                   [&report] { return report.events().sentences(); }, [&runner] { return runner.times(); },
-                   [&runner] { return runner.clusters(); }});
+  let_see(watched, runner, report);
   std::optional<McapRecording> mcap;
   if (!mission.config.record_mcap.empty()) mcap.emplace(command.out / mission.config.record_mcap);
   const MissionResult result =
