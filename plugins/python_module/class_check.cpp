@@ -61,12 +61,14 @@ py::object class_in(const py::module_& module, const std::string& file, const Co
   };
   if (!py::hasattr(module, name.c_str()))
     throw ConfigError(class_name.place, file + " has no class " + in_quotes(name) + known());
-  const py::object type = module.attr(name.c_str());
+  py::object type = module.attr(name.c_str());
   if (!is_class(type)) throw ConfigError(class_name.place, in_quotes(name) + " of " + file + " is no class" + known());
-  for (const char* method : methods)
-    if (!py::hasattr(type, method) || PyCallable_Check(py::object(type.attr(method)).ptr()) == 0)
-      throw ConfigError(class_name.place,
-                        "the class " + name + " of " + file + " lacks the method " + method + "() (docs/python.md)");
+  const auto lacking = std::find_if(methods.begin(), methods.end(), [&](const char* method) {
+    return !py::hasattr(type, method) || PyCallable_Check(py::object(type.attr(method)).ptr()) == 0;
+  });
+  if (lacking != methods.end())
+    throw ConfigError(class_name.place,
+                      "the class " + name + " of " + file + " lacks the method " + *lacking + "() (docs/python.md)");
   return type;
 }
 

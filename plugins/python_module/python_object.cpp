@@ -31,7 +31,7 @@ py::module_ run_file(const std::string& file, const std::string& name) {
   const py::module_ machinery = py::module_::import("importlib.machinery");
   const py::module_ util = py::module_::import("importlib.util");
   const py::object loader = machinery.attr("SourceFileLoader")(name, file);
-  const py::object module = util.attr("module_from_spec")(util.attr("spec_from_loader")(name, loader));
+  py::object module = util.attr("module_from_spec")(util.attr("spec_from_loader")(name, loader));
   py::module_::import("sys").attr("modules")[py::str(name)] = module;  // where dataclasses look for it
   loader.attr("exec_module")(module);
   return module;

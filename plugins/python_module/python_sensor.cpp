@@ -84,7 +84,7 @@ PythonSensor::PythonSensor(const Config& config, const SensorContext& context)
 }
 
 SensorStep PythonSensor::next(const Budget& budget) {
-  const SensorStep end{SensorState::end_of_data, {}, object_.name_of("next") + " has no more observations"};
+  SensorStep end{SensorState::end_of_data, {}, object_.name_of("next") + " has no more observations"};
   if (has_ended_) return end;
   return object_.call(&budget, [&](py::object& object) -> SensorStep {
     const py::object found = object.attr("next")();

@@ -49,6 +49,7 @@ py::array_t<double> numbers_of(const Entries& entries, Value value) {
 
 void add_geometry(py::dict& attributes, const std::vector<RangeReading>& readings) {
   std::vector<Pose2> poses;
+  poses.reserve(readings.size());
   for (const RangeReading& reading : readings) poses.push_back(reading.T_robot_sensor);
   attributes["sensor_poses"] = python::array_of(poses);
   attributes["half_beam_rad"] = numbers_of(readings, [](const RangeReading& r) { return r.half_beam_rad; });
@@ -196,7 +197,7 @@ py::object Fields::get(const char* key) const {
 }
 
 std::string found_text(const py::handle& value) {
-  const std::string type = py::str(py::type::handle_of(value).attr("__name__"));
+  std::string type = py::str(py::type::handle_of(value).attr("__name__"));
   if (value.is_none()) return "None";
   try {
     return type + " " +
