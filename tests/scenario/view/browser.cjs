@@ -95,12 +95,12 @@ async function watch(page) {
   await status_holds(page, 'has ended: cancelled. To browse it: cairn view ');
 }
 
-// What is drawn over the map comes later than the map.
+// What is drawn over the map comes later than the map: what has been so for two seconds stays.
 async function settled_free_of(page) {
   let free = -1;
-  for (let i = 0; i < 30; ++i) {
+  for (let same = 0, i = 0; i < 60 && same < 4; ++i) {
     const now = await free_of(page);
-    if (now === free) break;
+    same = now === free ? same + 1 : 0;
     free = now;
     await page.waitForTimeout(500);
   }
@@ -124,8 +124,9 @@ async function browse(page) {
   await page.locator('#slider').focus();
   await page.keyboard.press('End');
   check(await seconds_of(page) === end_s, 'the slider does not lead to the end');
-  for (let i = 0; i < 100 && await free_of(page) !== free_at_end; ++i) await page.waitForTimeout(50);
-  check(await free_of(page) === free_at_end, 'the grid of the end does not come back');
+  for (let i = 0; i < 300 && await free_of(page) !== free_at_end; ++i) await page.waitForTimeout(100);
+  const free_again = await free_of(page);
+  check(free_again === free_at_end, `the grid of the end does not come back: ${free_again} in place of ${free_at_end}`);
   check((await page.textContent('#log')).includes('step 1 (explore) begins'), 'the log is empty');
   check((await page.textContent('#charts figcaption')).startsWith('Error of the pose'), 'no chart of the pose');
   check((await page.textContent('#times')).includes('muriel'), 'no times of the modules');
