@@ -9,6 +9,12 @@ function check(is_right, what) {
   if (!is_right) throw new Error(what);
 }
 
+// What is drawn comes later than what is said, on a busy machine much later.
+async function comes(page, is_there, what) {
+  for (let i = 0; i < 600 && !await is_there(); ++i) await page.waitForTimeout(100);
+  check(await is_there(), what);
+}
+
 // How many different colours the map has.
 const colours_of = (page) => page.evaluate(() => {
   const canvas = document.getElementById('map');
@@ -21,6 +27,18 @@ const free_of = (page) => page.evaluate(() => {
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   return new Uint32Array(data.buffer).filter((pixel) => (pixel & 0xff) > 240).length;
 });
+// What has been so for two seconds stays.
+async function settled_free_of(page) {
+  let free = -1;
+  for (let same = 0, i = 0; i < 60 && same < 4; ++i) {
+    const now = await free_of(page);
+    same = now === free ? same + 1 : 0;
+    free = now;
+    await page.waitForTimeout(500);
+  }
+  return free;
+}
+
 const status_holds = (page, text) => page.waitForFunction(
     (wanted) => document.getElementById('status').textContent.includes(wanted), text, kPatience);
 const seconds_of = async (page) => parseFloat(await page.textContent('#clock'));
@@ -52,7 +70,7 @@ async function watch(page) {
   await status_holds(page, 'held: running');
   await page.waitForFunction(() => document.querySelector('#tree .running'), null, kPatience);
   await page.waitForFunction(() => parseFloat(document.getElementById('clock').textContent) > 1, null, kPatience);
-  check(await colours_of(page) > 20, 'the map is blank');
+  await comes(page, async () => await colours_of(page) > 20, 'the map is blank');
   await page.waitForFunction(() => document.getElementById('charts').textContent.includes('Time of a tick'), null, kPatience);
 
   await page.locator('#pause').focus();
@@ -68,7 +86,7 @@ async function watch(page) {
   check(await focus_of(page) === 'pause', 'the focus is lost when it goes on');
 
   await page.waitForFunction(() => document.getElementById('tree').textContent.includes('waiting for orders'), null, kPatience);
-  await page.waitForTimeout(300);
+  await settled_free_of(page);
   const followed = await view_of(page);
   await page.click('#all');
   check(near(followed, await view_of(page)), 'the view has not followed the map that grew');
@@ -95,27 +113,13 @@ async function watch(page) {
   await status_holds(page, 'has ended: cancelled. To browse it: cairn view ');
 }
 
-// What is drawn over the map comes later than the map: what has been so for two seconds stays.
-async function settled_free_of(page) {
-  let free = -1;
-  for (let same = 0, i = 0; i < 60 && same < 4; ++i) {
-    const now = await free_of(page);
-    same = now === free ? same + 1 : 0;
-    free = now;
-    await page.waitForTimeout(500);
-  }
-  return free;
-}
-
 async function browse(page) {
   await status_holds(page, 'Drag the time');
-  for (let i = 0; i < 100 && await colours_of(page) <= 20; ++i) await page.waitForTimeout(50);
-  check(await colours_of(page) > 20, 'the map is blank');
+  await comes(page, async () => await colours_of(page) > 20, 'the map is blank');
   const end_s = await seconds_of(page), free_at_end = await settled_free_of(page);
   await page.locator('#slider').focus();
   await page.keyboard.press('Home');
-  for (let i = 0; i < 100 && await free_of(page) > free_at_end / 2; ++i) await page.waitForTimeout(50);
-  check(await free_of(page) < free_at_end / 2, 'the grid of the beginning is that of the end');
+  await comes(page, async () => await free_of(page) < free_at_end / 2, 'the grid of the beginning is that of the end');
   check(await seconds_of(page) === 0, 'the slider does not lead to the beginning');
   check((await page.textContent('#tree')).includes('running'), 'nothing runs at the beginning');
   await page.click('#play');
@@ -124,9 +128,7 @@ async function browse(page) {
   await page.locator('#slider').focus();
   await page.keyboard.press('End');
   check(await seconds_of(page) === end_s, 'the slider does not lead to the end');
-  for (let i = 0; i < 300 && await free_of(page) !== free_at_end; ++i) await page.waitForTimeout(100);
-  const free_again = await free_of(page);
-  check(free_again === free_at_end, `the grid of the end does not come back: ${free_again} in place of ${free_at_end}`);
+  await comes(page, async () => await free_of(page) === free_at_end, 'the grid of the end does not come back');
   check((await page.textContent('#log')).includes('step 1 (explore) begins'), 'the log is empty');
   check((await page.textContent('#charts figcaption')).startsWith('Error of the pose'), 'no chart of the pose');
   check((await page.textContent('#times')).includes('muriel'), 'no times of the modules');
@@ -233,8 +235,7 @@ async function change(page) {
 }
 
 async function look_at_map(page) {
-  for (let i = 0; i < 100 && await colours_of(page) <= 20; ++i) await page.waitForTimeout(50);
-  check(await colours_of(page) > 20, 'the map is blank');
+  await comes(page, async () => await colours_of(page) > 20, 'the map is blank');
   await has_symbols(page);
   await plan_by_mouse(page);
   await plan_by_keyboard(page);
