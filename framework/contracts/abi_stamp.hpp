@@ -30,11 +30,11 @@ struct AbiStamp {
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
   std::uint32_t contracts;  // kContractsVersion
-  std::uint32_t sizes[30];  // of the exchanged types, as this_abi_stamp() lists them
+  std::uint32_t sizes[33];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
-// Raised whenever the signature of an interface's function changes: sizes do not show that.
-inline constexpr std::uint32_t kContractsVersion = 6;
+// Raised whenever the signature of an interface or an exchanged type changes: sizes need not show that.
+inline constexpr std::uint32_t kContractsVersion = 7;
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
 
 namespace abi_detail {
@@ -72,6 +72,7 @@ constexpr void copy(char (&out)[N], std::string_view text) {
       sizeof(ModuleContext), sizeof(SensorContext),    sizeof(LocalizerContext),
       sizeof(MapperContext), sizeof(DetectorContext),  sizeof(BehaviourFactoryContext),
       sizeof(Status),        sizeof(ControlRequest),   sizeof(ControlResult),
+      sizeof(CameraImage),   sizeof(MarkerSighting),   sizeof(CameraModel),
   };
   static_assert(sizeof sizes == sizeof stamp.sizes);
   for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];

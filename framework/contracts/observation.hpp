@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/camera_image.hpp"
+#include "framework/contracts/marker.hpp"
 #include "maps/geometry/pose.hpp"
 
 namespace cairn {
@@ -28,6 +30,10 @@ struct Observation {
   std::vector<RangeReading> ranges;
   bool bumped = false;                  // the robot touches something, which stops it there
   std::optional<double> battery_ratio;  // what is left of a full battery, where that is known
+  // Who holds the wheels, whatever is commanded ("the emergency topic /e_stop"); empty: nobody. By a live base.
+  std::string stopped_by;
+  std::vector<CameraImage> images;      // since the last observation; none unless SensorContext::wants_images
+  std::vector<MarkerSighting> markers;  // seen in these, or by a base that recognises markers itself
 };
 
 enum class SensorState { observation, end_of_data, fault };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -35,6 +36,25 @@ struct LaserModel {
     return {T_robot_laser.x_m, T_robot_laser.y_m,
             wrap_angle(T_robot_laser.theta_rad + first_angle_rad + beam * step_rad())};
   }
+};
+
+// A pinhole with lens distortion. Pixels are counted from the centre of the upper left one.
+struct CameraModel {
+  Pose2 T_robot_camera;   // the lens on the floor plan, and the direction that it looks in
+  double height_m = 0.3;  // of the lens above the floor
+  double tilt_rad = 0.0;  // upwards from level
+  int width_px = 640;
+  int height_px = 480;
+  double focal_x_px = 525.0;
+  double focal_y_px = 525.0;
+  double centre_x_px = 319.5;
+  double centre_y_px = 239.5;
+  std::array<double, 5> distortion{};  // k1, k2, p1, p2, k3 (Brown, Conrady), in OpenCV's order
+  double rate_hz = 5.0;
+  // What a simulation adds.
+  double blur_px = 0.6;         // standard deviation
+  double noise_ratio = 0.01;    // standard deviation of a pixel, of the full range
+  double exposure_ratio = 0.8;  // grey of a white surface, of the full range; above 1 it is overexposed
 };
 
 // Standard deviations unless the name says otherwise.
@@ -73,6 +93,7 @@ struct RobotModel {
   std::vector<int> firing_order;  // indices into sonars; empty: as listed
   double firing_period_s = 0.04;  // one transducer each period
   std::vector<LaserModel> lasers;
+  std::vector<CameraModel> cameras;
   OdometryError odometry_error;
   bool has_compass = true;
   CompassError compass_error;

@@ -46,6 +46,7 @@ struct SensorContext : ModuleContext {
   Pose2 T_map_start{};           // where the mission says the robot begins
   double begin_s = 0.0;          // the mission's clock as this run begins: not 0 when it goes on from a saved map
   Budget budget{};               // of making the sensor: who reads a file looks at it at least once a MiB
+  bool wants_images = false;     // something in the mission reads Observation::images; otherwise leave them out
 };
 
 template <>

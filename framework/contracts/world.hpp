@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/marker.hpp"
 #include "maps/geometry/contour.hpp"
 #include "maps/geometry/pose.hpp"
 
@@ -67,6 +68,14 @@ struct WorldMover {
   double keeps_m = 0.3;  // how far from the robot's footprint it stops, when it waits
 };
 
+// A marker on a wall or an object. It hides nothing and no range sensor sees it.
+struct WorldTag {
+  MarkerId marker;
+  Pose2 T_map_tag;        // its centre, and the direction that its printed side faces
+  double height_m = 0.3;  // of its centre above the floor
+  double size_m = 0.16;   // side of the square that its family's pose is measured by
+};
+
 struct World {
   Point min_m{0.0, 0.0};
   Point max_m{0.0, 0.0};
@@ -74,6 +83,7 @@ struct World {
   std::vector<WorldObject> objects;
   std::vector<WorldDoor> doors;
   std::vector<WorldMover> movers;
+  std::vector<WorldTag> tags;
 };
 
 }  // namespace cairn

@@ -136,9 +136,10 @@ class KeyText {
 };
 
 void add_robot(KeyText& key, const RobotModel& robot) {
-  // Named one by one, so that the compiler objects when a field is added and left out here.
-  const auto& [name, radius_m, polygon_m, v, w, a, wa, turning_m, kinematics, sonars, order, period_s, lasers, odometry,
-               has_compass, compass, range] = robot;
+  // Named one by one, so that the compiler objects when a field is added and left out here. No template is rendered of
+  // what cameras see.
+  const auto& [name, radius_m, polygon_m, v, w, a, wa, turning_m, kinematics, sonars, order, period_s, lasers, cameras,
+               odometry, has_compass, compass, range] = robot;
   key.add(name.size(), name, radius_m, v, w, a, wa, turning_m, static_cast<int>(kinematics), period_s);
   key.add_points(polygon_m).add(sonars.size());
   for (const auto& [T_robot_sonar, half_beam_rad, min_m, max_m] : sonars)
