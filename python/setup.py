@@ -1,6 +1,7 @@
 """Builds Cairn and puts it whole into the package: the module, and under `prefix` the program, libraries and modules.
 
 CAIRN_BUILD: a build folder that is configured already, for who has one; otherwise build/python_package is made.
+CAIRN_BUILD_AS_IS: not empty: what that folder holds is taken, nothing is built.
 """
 import os
 import pathlib
@@ -24,7 +25,8 @@ class WithCairn(build_py):
             subprocess.run(["cmake", "-S", HERE.parent, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                             f"-DCAIRN_PYTHON={sys.executable}", "-DCAIRN_PYTHON_PACKAGE=ON",
                             "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12"], check=True)
-        subprocess.run(["cmake", "--build", build], check=True)
+        if not os.environ.get("CAIRN_BUILD_AS_IS"):
+            subprocess.run(["cmake", "--build", build], check=True)
         package = pathlib.Path(self.build_lib) / "cairn"
         shutil.rmtree(package / "prefix", ignore_errors=True)
         subprocess.run(["cmake", "--install", build, "--prefix", package.resolve() / "prefix", "--strip"], check=True)

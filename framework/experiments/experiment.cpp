@@ -187,7 +187,7 @@ std::vector<ExperimentRow> run_experiment(const ExperimentConfig& config, const 
   in_parallel(
       jobs.size(),
       [&](std::size_t i) {
-        if (cancel.load()) return;
+        if (cancel.load() || (filter.may_begin && !filter.may_begin(i))) return;
         rows[i] = run_job(config, library, cancel, jobs[i]);
         const std::scoped_lock lock(telling);
         ++count;

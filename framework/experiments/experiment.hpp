@@ -56,6 +56,7 @@ struct ExperimentRow {
 // Which runs, by their place in jobs_of(), and what is called after each, one at a time.
 struct RunFilter {
   std::function<bool(std::size_t)> is_wanted{};  // none: all
+  std::function<bool(std::size_t)> may_begin{};  // asked when the run would begin, from any thread; none: it may
   std::function<void(const ExperimentRow&)> has_run{};
 };
 

@@ -87,6 +87,8 @@ CroppedMap crop_map(const SavedMap& map, const Point& corner_m, const Point& opp
                                 (extent ? "; the map reaches from " + text_of(*extent) : "; the map is empty"));
   }
   std::erase_if(cropped.map.driven_path, [&](const Pose2& pose) { return !box.contains(pose.position()); });
+  if (!cropped.map.submaps.empty()) cropped.warnings.emplace_back("the submaps show what is cut off: they are dropped");
+  cropped.map.submaps = {};
   if (cropped.map.progress)
     cropped.warnings.emplace_back("no mission can resume from a part of its map: its progress is dropped");
   cropped.map.progress.reset();

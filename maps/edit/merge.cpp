@@ -181,6 +181,7 @@ class Merger {
            "the trajectory ends elsewhere than where a robot stands at the joined landmark, so only the cost is kept");
     report(a_.progress || b_.progress ? 1 : 0, "mission", "none can resume from a merged map: its progress is dropped");
     report(b_.driven_path.empty() ? 0 : 1, "driven path", "the second map's is not taken over");
+    report(b_.submaps.submaps.size(), "submap", "the second map's are not taken over");
     const auto named = [](const SavedMap& map) {
       return static_cast<std::size_t>(
           std::ranges::count_if(map.clusters.clusters, [](const auto& entry) { return !entry.second.name.empty(); }));

@@ -20,7 +20,7 @@ int version_of(Database& database) {
 // Nothing is written that would not load again: what the tables refuse is a bug of the caller.
 Database database_of(const SavedMap& map) {
   try {
-    Database database = empty_map(kMapSchemaVersion);
+    Database database = empty_map(map.submaps.empty() ? 1 : kMapSchemaVersion);
     write_content(database, map);
     write_checksums(database);
     database.execute("COMMIT");
@@ -48,7 +48,7 @@ Database checked(Database database) {
   const int version = version_of(database);
   check_schema(database, version);
   check_checksums(database, version);
-  return migrated(std::move(database), version);
+  return database;  // version 2 has tables more, and reading does without them: no need to copy a large map
 }
 
 }  // namespace cairn::store

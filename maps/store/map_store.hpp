@@ -19,10 +19,11 @@
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/landmarks/landmark_template.hpp"
+#include "maps/submaps/kept_submaps.hpp"
 
 namespace cairn {
 
-inline constexpr int kMapSchemaVersion = 1;
+inline constexpr int kMapSchemaVersion = 2;  // the newest; without submaps a map is written as 1
 
 class StoreError : public std::runtime_error {
  public:
@@ -52,6 +53,7 @@ struct SavedMap {
   std::vector<Pose2> driven_path;                 // estimated poses, thinned
   std::map<std::string, std::string> properties;  // mission, seed, robot_radius_m, ...
   std::optional<MissionProgress> progress;        // none: no mission made it
+  KeptSubmaps submaps;                            // of laser SLAM; mostly none
 };
 
 // Throws StoreError with the file and the reason when it cannot be written, or is there already and is

@@ -212,6 +212,16 @@ bool concerns_clusters(const StoreLoss& loss) {
   return loss.table == "clusters" || loss.table == "landmark_clusters";
 }
 
+bool defines_tables_of(const std::string& bytes, int version) {
+  try {
+    Database database = Database::of_bytes(as_far_as_it_goes(bytes, nullptr));
+    check_schema(database, version);
+    return true;
+  } catch (const StoreError&) {
+    return false;
+  }
+}
+
 SalvagedMap salvaged_from(Database& damaged, int version) {
   SalvagedMap salvaged;
   salvaged.version = version;
@@ -257,6 +267,8 @@ std::optional<SalvagedMap> salvaged_past_header(const std::string& bytes) {
       SalvagedMap salvaged = salvaged_from(damaged, version);
       if (!holds_nothing(salvaged.map) && (!best || salvaged.losses.size() < best->losses.size()))
         best = std::move(salvaged);
+      // An older version has fewer tables to lose something of.
+      if (best && defines_tables_of(mended, version)) break;
     } catch (const StoreError&) {
       // Not this version.
     }

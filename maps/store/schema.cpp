@@ -73,7 +73,17 @@ constexpr std::array kVersionOne{
                kWithoutRowid},
 };
 
-constexpr std::array<const char*, 0> kMigrations{};
+// Version 2: what laser SLAM knows (maps/submaps/kept_submaps.hpp). echoes: width x height counts, zlib; crc32 of its
+// bytes.
+constexpr std::array kMigrations{
+    "CREATE TABLE submap_nodes (number INTEGER PRIMARY KEY, stamp_s REAL NOT NULL, x_m REAL NOT NULL, y_m REAL NOT "
+    "NULL, theta_rad REAL NOT NULL);"
+    "CREATE TABLE submaps (anchor INTEGER PRIMARY KEY, finished INTEGER NOT NULL, cell_m REAL NOT NULL, min_x INTEGER "
+    "NOT NULL, min_y INTEGER NOT NULL, width INTEGER NOT NULL, height INTEGER NOT NULL, echoes BLOB NOT NULL, crc32 "
+    "INTEGER NOT NULL);"
+    "CREATE TABLE submap_edges (number INTEGER PRIMARY KEY, from_node INTEGER NOT NULL, to_node INTEGER NOT NULL, "
+    "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, xx REAL NOT NULL, xy REAL NOT NULL, xt REAL NOT "
+    "NULL, yy REAL NOT NULL, yt REAL NOT NULL, tt REAL NOT NULL, closure INTEGER NOT NULL, believed INTEGER NOT NULL)"};
 static_assert(kMapSchemaVersion == 1 + kMigrations.size());
 
 // The steps from one version to another.

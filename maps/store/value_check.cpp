@@ -80,6 +80,16 @@ constexpr std::array kRanges{
     ColumnRange{"progress", "readings", 0.0, kMaxIdValue},
     ColumnRange{"progress", "matchings", 0.0, kMaxIdValue},
     ColumnRange{"progress", "collisions", 0.0, kMaxIdValue},
+    ColumnRange{"submap_nodes", "stamp_s", 0.0, kMaxTime_s},
+    ColumnRange{"submap_nodes", "x_m", -kMaxPlace_m, kMaxPlace_m, From::grid_x},
+    ColumnRange{"submap_nodes", "y_m", -kMaxPlace_m, kMaxPlace_m, From::grid_y},
+    ColumnRange{"submap_nodes", "theta_rad", -kMaxAngle_rad, kMaxAngle_rad},
+    ColumnRange{"submap_edges", "x_m", -kMaxPlace_m, kMaxPlace_m},
+    ColumnRange{"submap_edges", "y_m", -kMaxPlace_m, kMaxPlace_m},
+    ColumnRange{"submap_edges", "theta_rad", -kMaxAngle_rad, kMaxAngle_rad},
+    ColumnRange{"submap_edges", "xx", 0.0, kAnyFinite},
+    ColumnRange{"submap_edges", "yy", 0.0, kAnyFinite},
+    ColumnRange{"submap_edges", "tt", 0.0, kAnyFinite},
 };
 
 // Of landmarks, retired_landmarks and candidates.

@@ -21,6 +21,7 @@ class Submap {
   [[nodiscard]] std::size_t anchor() const { return anchor_; }
   [[nodiscard]] const std::vector<std::size_t>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<Pose2>& T_anchor_nodes() const { return T_anchor_nodes_; }
+  [[nodiscard]] const std::vector<Point>& points_m() const { return points_m_; }
   [[nodiscard]] const SurfaceMap& surfaces() const { return surfaces_; }
   // What scans are searched in. Built anew at each call: O(points + cells).
   [[nodiscard]] FieldPyramid pyramid(double cell_m, double sigma_m, int levels) const;

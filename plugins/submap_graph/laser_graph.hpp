@@ -39,6 +39,7 @@ class LaserGraph {
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return covariance_; }
   [[nodiscard]] double matched_ratio() const { return matched_ratio_; }
   [[nodiscard]] const TiedGraph& graph() const { return graph_; }
+  [[nodiscard]] const LocalMap& local_map() const { return local_map_; }
 
  private:
   struct Scan {

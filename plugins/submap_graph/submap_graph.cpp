@@ -40,9 +40,37 @@ PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&
     T_odom_robot_ = is_usable(observation.T_odom_robot) ? observation.T_odom_robot : Pose2{};
   PoseEstimate estimate;
   estimate.T_map_robot = graph_.add(points_m_, *T_odom_robot_);
+  node_stamps_s_.resize(graph_.graph().size(), observation.stamp_s);
   estimate.covariance = graph_.covariance();
   (graph_.matched_ratio() >= kMatched_ratio ? estimate.sightings_used : estimate.sightings_refused) = 1;
   return estimate;
+}
+
+KeptSubmaps SubmapGraph::submaps() const {
+  KeptSubmaps kept;
+  const TiedGraph& graph = graph_.graph();
+  const auto number_of = [](std::size_t node) { return static_cast<std::int64_t>(node); };
+  kept.nodes.reserve(graph.size());
+  for (std::size_t node = 0; node < graph.size(); ++node)
+    kept.nodes.push_back({number_of(node), node_stamps_s_[node], graph.T_map(node)});
+  kept.edges.reserve(graph.ties().size() + graph.closures().size());
+  for (const PoseEdge& tie : graph.ties())
+    kept.edges.push_back({number_of(tie.from), number_of(tie.to), tie.T_from_to, tie.information, false, true});
+  for (std::size_t i = 0; i < graph.closures().size(); ++i) {
+    const Closure& closure = graph.closures()[i];
+    kept.edges.push_back({number_of(closure.anchor), number_of(closure.node), closure.T_anchor_node,
+                          closure.information, true, graph.is_believed()[i]});
+  }
+  const auto& submaps = graph_.local_map().submaps();
+  const std::size_t first = submaps.size() - std::min(submaps.size(), KeptSubmaps::kMax);
+  for (std::size_t i = first; i < submaps.size(); ++i) {
+    KeptSubmap submap{.anchor = number_of(submaps[i]->anchor()),
+                      .finished = i < graph_.local_map().finished(),
+                      .cell_m = kFieldCell_m};
+    set_echoes(submap, submaps[i]->points_m());
+    kept.submaps.push_back(std::move(submap));
+  }
+  return kept;
 }
 
 }  // namespace cairn::submap_graph

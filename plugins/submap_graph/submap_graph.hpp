@@ -18,11 +18,12 @@
 #include <vector>
 
 #include "framework/contracts/localizer.hpp"
+#include "framework/contracts/pose_graph_report.hpp"
 #include "plugins/submap_graph/laser_graph.hpp"
 
 namespace cairn::submap_graph {
 
-class SubmapGraph final : public Localizer, public PoseHistory {
+class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraphReport {
  public:
   SubmapGraph(const Config& config, const Pose2& T_map_start) : config_(config), graph_(config, T_map_start) {}
 
@@ -32,10 +33,12 @@ class SubmapGraph final : public Localizer, public PoseHistory {
   [[nodiscard]] std::vector<Pose2> poses() const override { return graph_.poses(); }
   [[nodiscard]] std::uint64_t revision() const override { return graph_.revision(); }
   bool finish_part() override { return graph_.finish_part(); }
+  [[nodiscard]] KeptSubmaps submaps() const override;
 
  private:
   Config config_;
   LaserGraph graph_;
+  std::vector<double> node_stamps_s_;
   std::optional<Pose2> T_odom_robot_;  // the last good one
   std::vector<Point> points_m_;        // of this scan, from the robot
 };

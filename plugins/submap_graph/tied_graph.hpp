@@ -34,6 +34,8 @@ class TiedGraph {
   [[nodiscard]] std::size_t size() const { return graph_.T_map_node.size(); }
   [[nodiscard]] const Pose2& T_map(std::size_t node) const { return graph_.T_map_node[node]; }
   [[nodiscard]] const std::vector<Closure>& closures() const { return closures_; }
+  [[nodiscard]] const std::vector<bool>& is_believed() const { return is_believed_; }
+  [[nodiscard]] const std::vector<PoseEdge>& ties() const { return graph_.edges; }
   [[nodiscard]] std::size_t believed() const;
 
  private:

@@ -55,6 +55,11 @@ class Map:
         """Of all levels, by rising id."""
         return _native.clusters_of(self._native)
 
+    @property
+    def submaps(self) -> list[_native.Submap]:
+        """Of laser SLAM (`submap_graph`), by rising anchor; empty for maps of other localizers."""
+        return _native.submaps_of(self._native)
+
     def plan(self, from_: Place, to: Place, *, planner: str = "hybrid", via: Iterable[Place] = (),
              avoid: Iterable[str] = (), closed: Iterable[Union[str, int]] = (), alternatives: int = 0,
              cost: str = "length", explain: bool = False, trajectory: bool = False, robot: Optional[File] = None,

@@ -1,7 +1,12 @@
 """The scripts in docs/examples run, and find what their pages say."""
 import importlib.util
 import os
+import re
+import shutil
+import signal
 import subprocess
+import sys
+import time
 
 import pytest
 
@@ -15,6 +20,17 @@ def example(name):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def test_the_readmes_screen_prints_what_it_says(tmp_path):
+    subprocess.run([PROGRAM, "run", SOURCE / "config/missions/office.yaml", "--seed", "7", "--out",
+                    tmp_path / "out/office"], check=True, stdout=subprocess.DEVNULL)
+    (tmp_path / "config").symlink_to(SOURCE / "config")
+    section = (SOURCE / "README.md").read_text().split("### In Python\n")[1].split("\n### ")[0]
+    _, script, between, printed, _ = re.split(r"^```.*\n", section, flags=re.MULTILINE)
+    assert not between.strip() and len(script.splitlines()) <= 11
+    told = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True, cwd=tmp_path)
+    assert told.stdout == printed
 
 
 def test_a_template_of_ones_own_is_recognised(tmp_path):
@@ -60,12 +76,71 @@ def test_the_job_array_runs_the_shard_of_its_task(tmp_path):
     assert (tmp_path / "seed_1/row.json").exists()
 
 
-def test_processes_of_mpirun_share_an_experiment(tmp_path):
-    experiment = [PROGRAM, "experiment", SOURCE / "config/experiments/first_mission.yaml", "--set", "seeds.count=2"]
-    subprocess.run([*experiment, "--out", tmp_path / "whole"], check=False, stdout=subprocess.DEVNULL)
-    for rank in ("0", "1"):
-        assert not (tmp_path / "parts/table.md").exists()
-        subprocess.run([*experiment, "--out", tmp_path / "parts"], check=False, stdout=subprocess.DEVNULL,
-                       env={**os.environ, "OMPI_COMM_WORLD_RANK": rank, "OMPI_COMM_WORLD_SIZE": "2"})
-    for table in ("table.md", "table.json"):
-        assert (tmp_path / "parts" / table).read_bytes() == (tmp_path / "whole" / table).read_bytes()
+EXPERIMENT = """experiment: maps
+missions: [drive.yaml]
+seeds: {{from: 5, count: {count}}}
+hold_out_every: 5
+baseline: textbook
+variants: [{{name: textbook}}, {{name: clamped, set: [map.clamp_nat=3]}}]
+"""
+DRIVE = """mission: drive
+robot: {config}/robots/pioneer1_true_pose.yaml
+world: {config}/worlds/mapping_smooth_hallway.yaml
+start: {{at_m: [1.727, 1.774]}}
+sensor: {{plugin: simulated_robot}}
+localizer: {{plugin: odometry_compass}}
+map: {{plugin: bayes}}
+steps: [drive: [[2.4, 1.8]]]
+"""
+
+
+def short_experiment(folder, count):
+    (folder / "drive.yaml").write_text(DRIVE.format(config=SOURCE / "config"))
+    (folder / "maps.yaml").write_text(EXPERIMENT.format(count=count))
+    return [PROGRAM, "experiment", folder / "maps.yaml", "--out"]
+
+
+def ranks(command, count):
+    """The same as mpirun does it, without mpirun."""
+    return [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                             env={**os.environ, "OMPI_COMM_WORLD_RANK": str(rank), "OMPI_COMM_WORLD_SIZE": str(count)})
+            for rank in range(count)]
+
+
+def same_tables(folder, whole):
+    return all((folder / table).read_bytes() == (whole / table).read_bytes() for table in ("table.md", "table.json"))
+
+
+def test_ranks_share_an_experiment(tmp_path):
+    experiment = short_experiment(tmp_path, 8)
+    subprocess.run([*experiment, tmp_path / "whole"], check=True, stdout=subprocess.DEVNULL)
+    told = [process.communicate()[1] for process in ranks([*experiment, tmp_path / "parts"], 3)]
+    assert same_tables(tmp_path / "parts", tmp_path / "whole")
+    own = [int(re.search(r"; (\d+) of 16 were its own", text).group(1)) for text in told]
+    assert sum(own) == 16
+    assert not list((tmp_path / "parts").glob(".ranks_*"))
+
+
+def test_a_rank_that_is_killed_costs_its_runs_only_and_they_are_told(tmp_path):
+    experiment = short_experiment(tmp_path, 400)
+    processes = ranks([*experiment, tmp_path / "parts"], 2)
+    while len(list((tmp_path / "parts/drive/textbook").glob("seed_*/row.json"))) < 5:
+        time.sleep(0.01)
+    os.kill(processes[0].pid, signal.SIGKILL)
+    processes[0].communicate()
+    told = processes[1].communicate()[1]
+    assert processes[1].returncode == (1 if "missing: " in told else 0)
+    missing = 800 - len(list((tmp_path / "parts/drive").glob("*/seed_*/row.json")))
+    assert missing <= 8, "those that it was running"
+    assert told.count("missing: ") == missing
+    assert (tmp_path / "parts/table.md").exists()
+
+
+@pytest.mark.skipif(shutil.which("mpirun") is None, reason="mpirun is not installed (openmpi-bin)")
+def test_mpirun_starts_ranks(tmp_path):
+    experiment = short_experiment(tmp_path, 8)
+    mpirun = ["mpirun", "--enable-recovery", "--oversubscribe", "-n", "2"]
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    subprocess.run([*experiment, tmp_path / "whole"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([*mpirun, *experiment, tmp_path / "parts"], check=True, stdout=subprocess.DEVNULL, env=environment)
+    assert same_tables(tmp_path / "parts", tmp_path / "whole")

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -24,6 +23,12 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::function<void(const ExperimentRow&)> row_writer(const std::string& fingerprint) {
+  return [fingerprint](const ExperimentRow& row) {
+    if (row.result.outcome != MissionOutcome::cancelled) write_file(row.folder / kRowFile, row_text(row, fingerprint));
+  };
+}
+
 }  // namespace
 
 Shard shard_of(const std::string& text) {
@@ -35,17 +40,6 @@ Shard shard_of(const std::string& text) {
   }
   throw std::invalid_argument(
       fmt::format("{} is no shard: K/N with K from 1 to N, and N at most {}", in_quotes(text), kMaxShards));
-}
-
-std::optional<Shard> shard_of_launcher() {
-  const auto number = [](const char* name) {
-    const char* const text = std::getenv(name);
-    return number_from<std::size_t>(text == nullptr ? "" : text);
-  };
-  const auto rank = number("OMPI_COMM_WORLD_RANK");
-  const auto size = number("OMPI_COMM_WORLD_SIZE");
-  if (!rank || !size || *size < 2 || *size > kMaxShards || *rank >= *size) return std::nullopt;
-  return Shard{*rank + 1, *size};
 }
 
 std::string experiment_fingerprint(const std::filesystem::path& file, const ExperimentConfig& config,
@@ -64,11 +58,24 @@ void forget_rows(const ExperimentConfig& config, const std::filesystem::path& ou
 }
 
 RunFilter runs_of(const Shard& shard, const std::string& fingerprint) {
-  return {[shard](std::size_t job) { return shard.has(job); },
-          [fingerprint](const ExperimentRow& row) {
-            if (row.result.outcome != MissionOutcome::cancelled)
-              write_file(row.folder / kRowFile, row_text(row, fingerprint));
-          }};
+  RunFilter filter;
+  filter.is_wanted = [shard](std::size_t job) { return shard.has(job); };
+  filter.has_run = row_writer(fingerprint);
+  return filter;
+}
+
+// A row of an earlier start goes when its run begins anew.
+RunFilter runs_of(const RankedRuns& runs, const ExperimentConfig& config, const std::filesystem::path& out,
+                  const std::string& fingerprint) {
+  RunFilter filter;
+  filter.may_begin = [&runs, jobs = jobs_of(config, out)](std::size_t job) {
+    if (!runs.take(job)) return false;
+    std::error_code error;
+    std::filesystem::remove(jobs[job].out / kRowFile, error);
+    return true;
+  };
+  filter.has_run = row_writer(fingerprint);
+  return filter;
 }
 
 MergedRows merged_rows(const ExperimentConfig& config, const std::filesystem::path& out,

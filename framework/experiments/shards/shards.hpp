@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "framework/experiments/experiment.hpp"
+#include "framework/experiments/shards/ranks.hpp"
 
 namespace cairn {
 
@@ -23,10 +24,6 @@ struct Shard {
 // "K/N", 1 <= K <= N <= 100000. Throws std::invalid_argument with a sentence.
 [[nodiscard]] Shard shard_of(const std::string& text);
 
-// Of the process that Open MPI's mpirun has started, by its environment (OMPI_COMM_WORLD_RANK, OMPI_COMM_WORLD_SIZE);
-// none: it was not started so, or alone.
-[[nodiscard]] std::optional<Shard> shard_of_launcher();
-
 // Of the files of the experiment and its missions, and of the settings given over them.
 [[nodiscard]] std::string experiment_fingerprint(const std::filesystem::path& file, const ExperimentConfig& config,
                                                  const std::vector<std::string>& overrides);
@@ -36,6 +33,9 @@ void forget_rows(const ExperimentConfig& config, const std::filesystem::path& ou
 
 // The filter for run_experiment() with which it runs that shard and writes its row files.
 [[nodiscard]] RunFilter runs_of(const Shard& shard, const std::string& fingerprint);
+// The same for a process of mpirun: each run is begun by whoever is free first. runs must outlive it.
+[[nodiscard]] RunFilter runs_of(const RankedRuns& runs, const ExperimentConfig& config,
+                                const std::filesystem::path& out, const std::string& fingerprint);
 
 struct MergedRows {
   std::vector<ExperimentRow> rows;   // of all runs; those that are missing as run_experiment() has cancelled ones

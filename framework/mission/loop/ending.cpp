@@ -123,6 +123,17 @@ SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
   return map;
 }
 
+// The map is worth more than they are: a module that fails at this costs them only.
+KeptSubmaps MissionLoop::submaps_so_far() {
+  if (ending_.outcome == MissionOutcome::module_fault) return {};
+  try {
+    return perception_.submaps();
+  } catch (const ModuleFault& fault) {
+    publisher_.publish(Message{std::string("the map is saved without its submaps: ") + fault.what()});
+    return {};
+  }
+}
+
 MissionResult MissionLoop::result() const {
   const RunFigures& counted = counts_.figures();
   MissionResult result;

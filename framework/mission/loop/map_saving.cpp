@@ -19,13 +19,15 @@ bool is_of_a_finished_mission(const std::filesystem::path& map) {
 }  // namespace
 
 MapSaving::MapSaving(const Mission& mission, Options options, Planning& planning, const WorldState& world,
-                     Publisher& publisher, std::function<SavedMap(ClusterTree)> content)
+                     Publisher& publisher, std::function<SavedMap(ClusterTree)> content,
+                     std::function<KeptSubmaps()> submaps)
     : mission_(mission),
       options_(std::move(options)),
       planning_(planning),
       world_(world),
       publisher_(publisher),
       content_(std::move(content)),
+      submaps_(std::move(submaps)),
       autosaver_(options_.folder / autosave_file_of(mission.config),
                  options_.autosaves ? mission.config.autosave.every_s : 0.0, options_.wall_clock,
                  mission.config.clusters.sizes()) {}
@@ -97,7 +99,9 @@ Status MapSaving::write(const std::string& file_name) {
   if (world_.grid == nullptr) return {StepState::failure, "there is no map to save"};
   explored_ratio_ = world_.explored_ratio();
   try {
-    save_map(options_.folder / file_name, content_(planning_.clusters(*world_.grid)), Links::replace);
+    SavedMap map = content_(planning_.clusters(*world_.grid));
+    map.submaps = submaps_();
+    save_map(options_.folder / file_name, map, Links::replace);
   } catch (const std::exception& error) {
     return {StepState::failure, std::string("the map could not be saved: ") + error.what()};
   }

@@ -22,9 +22,10 @@ class MapSaving {
     std::shared_ptr<const WallClock> wall_clock;
     bool leaves_map_alone = false;  // nothing is saved
   };
-  // All must outlive it. content: the map as it stands, with these clusters.
+  // All must outlive it. content: the map as it stands, with these clusters. submaps: what whole maps
+  // have besides, autosaves not: it takes a while.
   MapSaving(const Mission& mission, Options options, Planning& planning, const WorldState& world, Publisher& publisher,
-            std::function<SavedMap(ClusterTree)> content);
+            std::function<SavedMap(ClusterTree)> content, std::function<KeptSubmaps()> submaps);
 
   // Once a tick. Changes nothing of what the mission does next.
   void autosave();
@@ -50,6 +51,7 @@ class MapSaving {
   const WorldState& world_;
   Publisher& publisher_;
   const std::function<SavedMap(ClusterTree)> content_;
+  const std::function<KeptSubmaps()> submaps_;
   Autosaver autosaver_;
   bool autosave_has_failed_ = false;
   std::string map_file_;

@@ -86,6 +86,7 @@ class MissionLoop {
   bool is_known_already(const Observation& observation);
   void restore(const SavedMap& map);
   [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
+  [[nodiscard]] KeptSubmaps submaps_so_far();
   void finish();
   void save_last();
   void redraw_map();

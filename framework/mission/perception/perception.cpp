@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/contracts/pose_graph_report.hpp"
 #include "framework/modules/plausibility.hpp"
 #include "framework/safety/deaf_transducers.hpp"
 
@@ -119,6 +120,14 @@ bool Perception::finish() {
   while (!budget_.cancelled() && modules_.localizer.call([&](Localizer&) { return history_->finish_part(); })) {
   }
   return correct_past(0) > 0.0;
+}
+
+KeptSubmaps Perception::submaps() {
+  const auto* const report = dynamic_cast<const PoseGraphReport*>(history_);
+  if (report == nullptr) return {};
+  KeptSubmaps submaps = modules_.localizer.call([&](Localizer&) { return report->submaps(); });
+  keep_latest(submaps);
+  return submaps;
 }
 
 const OccupancyGrid& Perception::redraw(std::shared_ptr<Mapper> map) {

@@ -52,6 +52,8 @@ class Perception {
   // Draws the past at its corrected poses into a map that holds none of it, which takes the place of the map so far.
   // Its grid. The detector gets all of it the next time.
   const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
+  // What the localizer knows of submaps; none from one that has none.
+  [[nodiscard]] KeptSubmaps submaps();
   [[nodiscard]] const Past& past() const { return past_; }
 
   [[nodiscard]] LandmarkTracker& tracker() { return tracker_; }

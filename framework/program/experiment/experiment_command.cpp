@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 
@@ -9,6 +10,7 @@
 #include "framework/experiments/homes/table.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
 #include "framework/experiments/report.hpp"
+#include "framework/experiments/shards/ranks.hpp"
 #include "framework/experiments/shards/shards.hpp"
 #include "framework/experiments/trials/table.hpp"
 #include "framework/program/common/commands.hpp"
@@ -92,6 +94,30 @@ int report_shard(const Shard& shard, const std::vector<ExperimentRow>& rows) {
   return static_cast<std::size_t>(ended) == rows.size() ? kExitDone : kExitNotSolved;
 }
 
+void report_rank(const Rank& rank, const std::vector<ExperimentRow>& rows) {
+  const auto ended = std::count_if(rows.begin(), rows.end(), [](const ExperimentRow& row) {
+    return row.result.outcome != MissionOutcome::cancelled;
+  });
+  std::cerr << fmt::format("rank {} of {}: no run is left; {} of {} were its own\n", rank.number, rank.of, ended,
+                           rows.size());
+}
+
+// On a terminal a line that changes; of a rank, which has none, a line each ten seconds.
+std::function<void(std::size_t, std::size_t)> progress(const std::optional<Rank>& rank) {
+  if (rank)
+    return [rank, last = std::chrono::steady_clock::now()](std::size_t ended, std::size_t runs) mutable {
+      constexpr std::chrono::seconds kBetween(10);
+      const auto now = std::chrono::steady_clock::now();
+      if (now - last < kBetween) return;
+      last = now;
+      std::cerr << fmt::format("rank {} of {}: has run {} of the {} runs\n", rank->number, rank->of, ended, runs);
+    };
+  if (::isatty(STDERR_FILENO) == 0) return {};
+  return [](std::size_t ended, std::size_t runs) {
+    std::cerr << fmt::format("\r{} of {} runs{}", ended, runs, ended == runs ? "\n" : "") << std::flush;
+  };
+}
+
 int merge(const ExperimentCommand& command, const CommonOptions& common, const ExperimentConfig& config,
           const MergedRows& merged) {
   if (merged.missing.size() == merged.rows.size() && !merged.missing.empty())
@@ -117,29 +143,30 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
   if (config.experiment == ExperimentKind::buildings) return buildings_experiment(config, command.out);
   const std::string fingerprint = experiment_fingerprint(command.file, config, command.overrides);
   if (command.merge) return merge(command, common, config, merged_rows(config, command.out, fingerprint));
-  const std::optional<Shard> shard =
-      command.shard.empty() ? shard_of_launcher()
-                            : std::optional(refused_about("--shard", [&] { return shard_of(command.shard); }));
+  std::optional<Shard> shard;
+  if (!command.shard.empty()) shard = refused_about("--shard", [&] { return shard_of(command.shard); });
+  const std::optional<Rank> rank = shard ? std::nullopt : rank_of_launcher();
+  std::optional<RankedRuns> ranked;
   RunFilter filter;
   if (shard) {
     forget_rows(config, command.out, *shard);
     filter = runs_of(*shard, fingerprint);
+  } else if (rank) {
+    filter = runs_of(ranked.emplace(command.out, *rank), config, command.out, fingerprint);
   }
   const ModuleLibrary library = module_library(common);
-  const bool live = ::isatty(STDERR_FILENO) != 0;
-  const auto tell = [live](std::size_t ended, std::size_t runs) {
-    if (live) std::cerr << fmt::format("\r{} of {} runs{}", ended, runs, ended == runs ? "\n" : "") << std::flush;
-  };
   const std::vector<ExperimentRow> rows =
-      run_experiment(config, library, command.out, cancel_on_interrupt(), tell, filter);
-  const auto finish_shard = [&] {
-    const int status = report_shard(*shard, rows);
-    if (!command.shard.empty()) return status;
-    // Started by mpirun: the last to end finds all rows there. When several do, they write the same bytes.
-    const MergedRows merged = merged_rows(config, command.out, fingerprint);
-    return merged.missing.empty() ? merge(command, common, config, merged) : status;
+      run_experiment(config, library, command.out, cancel_on_interrupt(), progress(rank), filter);
+  const auto finish = [&] {
+    if (shard) return report_shard(*shard, rows);
+    if (!ranked) return write_results(command, common, config, rows);
+    report_rank(*rank, rows);
+    // The last to end finds all rows there. When several do, they write the same bytes.
+    if (!ranked->end()) return kExitDone;
+    ranked->clear();
+    return merge(command, common, config, merged_rows(config, command.out, fingerprint));
   };
-  const int status = shard ? finish_shard() : write_results(command, common, config, rows);
+  const int status = finish();
   if (std::any_of(rows.begin(), rows.end(), [](const ExperimentRow& row) { return row.gave_up; })) {
     // A lost call still runs: nothing that it may use can be torn down.
     std::cout.flush();

@@ -103,6 +103,9 @@ ordered_json json_of(const SavedMap& map, int schema) {
           {"landmarks", map.graph.landmarks().size()},
           {"routes", map.graph.routes().size()},
           {"components", components_of(map.graph)},
+          {"submaps", map.submaps.submaps.size()},
+          {"submap_nodes", map.submaps.nodes.size()},
+          {"submap_edges", map.submaps.edges.size()},
           {"close_categories", close_json(map.graph)},
           {"levels", levels_json(map)},
           {"clusters", clusters_json(map)},
@@ -138,6 +141,9 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
   std::cout << "  " << counted(map.graph.landmarks().size(), "landmark") << ", " << counted_routes(map.graph) << "\n";
   if (!map.graph.landmarks().empty())
     std::cout << fmt::format("  {} by open routes\n", counted(components_of(map.graph), "component"));
+  if (const KeptSubmaps& kept = map.submaps; !kept.empty())
+    std::cout << fmt::format("  {}, {} and {} of their pose graph\n", counted(kept.submaps.size(), "submap"),
+                             counted(kept.nodes.size(), "node"), counted(kept.edges.size(), "edge"));
   int level = 0;
   for (const auto& [clusters, boundary] : levels_of(map.clusters, map.graph))
     std::cout << fmt::format("  level {}: {}, {} on their boundaries\n", ++level, counted(clusters, "cluster"),

@@ -235,6 +235,7 @@ SavedMap read_content_without_tiles(Reading& reading) {
   read_shapes(reading, map.shapes);
   reading.rows("driven_path", "SELECT x_m, y_m, theta_rad FROM driven_path ORDER BY number",
                [&](Statement& row) { map.driven_path.push_back(row.pose(0)); });
+  read_submaps(reading, map.submaps);
   return map;
 }
 

@@ -19,6 +19,9 @@ void read_tiles_within(Reading& reading, const CellBox& box, OccupancyGrid& grid
 // Landmarks, retired ones, and what is known of both.
 void read_all_landmarks(Reading& reading, LandmarkGraph& graph);
 void read_progress(Reading& reading, SavedMap& map);
+// Laser SLAM's; nothing from a map of version 1, which has no tables for them.
+void write_submaps(Database& database, const KeptSubmaps& submaps);
+void read_submaps(Reading& reading, KeptSubmaps& submaps);
 // The text of a JSON object, or nothing.
 [[nodiscard]] std::string annotations_in(const Statement& row, int column);
 

@@ -167,6 +167,7 @@ void write_content(Database& database, const SavedMap& map) {
   write_shapes(database, map.shapes);
   write_driven_path(database, map.driven_path);
   if (map.progress) write_progress(database, *map.progress);
+  if (!map.submaps.empty()) write_submaps(database, map.submaps);
 }
 
 }  // namespace cairn::store

@@ -27,8 +27,8 @@ TEST_F(MapStore, RefusesWhatIsNoSavedMap) {
 }
 
 TEST_F(MapStore, RefusesNewerAndUnknownVersions) {
-  EXPECT_EQ(refusal_after("PRAGMA user_version = 2"),
-            "was written with schema version 2, this Cairn reads up to version 1: use a newer Cairn");
+  EXPECT_EQ(refusal_after("PRAGMA user_version = 3"),
+            "was written with schema version 3, this Cairn reads up to version 2: use a newer Cairn");
   EXPECT_EQ(refusal_after("PRAGMA user_version = -1"), "has schema version -1, the first one is 1");
 }
 

@@ -54,6 +54,7 @@ inline void expect_equal(const SavedMap& a, const SavedMap& b) {
   EXPECT_EQ(a.driven_path, b.driven_path);
   EXPECT_EQ(a.properties, b.properties);
   EXPECT_EQ(a.progress, b.progress);
+  EXPECT_EQ(a.submaps, b.submaps);
   ASSERT_EQ(a.shapes.size(), b.shapes.size());
   for (std::size_t i = 0; i < a.shapes.size(); ++i) {
     EXPECT_EQ(a.shapes[i].category, b.shapes[i].category);

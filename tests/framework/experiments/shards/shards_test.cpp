@@ -24,20 +24,41 @@ TEST(Shards, AreNamedByNumberAndCount) {
     EXPECT_THROW(static_cast<void>(shard_of(wrong)), std::invalid_argument) << wrong;
 }
 
-TEST(Shards, OfProcessesOfMpirunAreThoseOfTheirRanks) {
+TEST(Ranks, AreThoseOfTheLauncher) {
   ::unsetenv("OMPI_COMM_WORLD_RANK");
   ::unsetenv("OMPI_COMM_WORLD_SIZE");
-  EXPECT_FALSE(shard_of_launcher());
+  EXPECT_FALSE(rank_of_launcher());
   ::setenv("OMPI_COMM_WORLD_RANK", "2", 1);
   ::setenv("OMPI_COMM_WORLD_SIZE", "4", 1);
-  const auto shard = shard_of_launcher();
-  ASSERT_TRUE(shard);
-  EXPECT_EQ(shard->number, 3U);
-  EXPECT_EQ(shard->of, 4U);
+  ::setenv("PMIX_NAMESPACE", "17/../x", 1);
+  const auto rank = rank_of_launcher();
+  ASSERT_TRUE(rank);
+  EXPECT_EQ(rank->number, 2U);
+  EXPECT_EQ(rank->of, 4U);
+  EXPECT_EQ(rank->job, "17____x");
   ::setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
-  EXPECT_FALSE(shard_of_launcher()) << "no rank of so few";
-  ::unsetenv("OMPI_COMM_WORLD_RANK");
-  ::unsetenv("OMPI_COMM_WORLD_SIZE");
+  EXPECT_FALSE(rank_of_launcher()) << "no rank of so few";
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE"}) ::unsetenv(name);
+}
+
+TEST(Ranks, TakeEachRunOnceAndTheLastToEndKnowsIt) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "ranks_test_XXXXXX").string();
+  const std::filesystem::path out = ::mkdtemp(pattern.data());
+  RankedRuns first(out, {0, 3, "job"});
+  RankedRuns second(out, {1, 3, "job"});
+  EXPECT_TRUE(first.take(0));
+  EXPECT_FALSE(second.take(0));
+  EXPECT_TRUE(second.take(1));
+  EXPECT_THROW(RankedRuns(out, {1, 3, "job"}), std::runtime_error) << "a rank of that number lives";
+  EXPECT_FALSE(first.end()) << "one lives, one has not begun";
+  std::optional<RankedRuns> third(std::in_place, out, Rank{2, 3, "job"});
+  EXPECT_FALSE(second.end()) << "one lives";
+  third.reset();  // killed
+  RankedRuns again(out, {0, 3, "job"});
+  EXPECT_TRUE(again.end());
+  again.clear();
+  EXPECT_TRUE(std::filesystem::is_empty(out));
+  std::filesystem::remove_all(out);
 }
 
 }  // namespace
