@@ -28,6 +28,7 @@ struct Observation {
   std::vector<RangeReading> ranges;
   bool bumped = false;                  // the robot touches something, which stops it there
   std::optional<double> battery_ratio;  // what is left of a full battery, where that is known
+  std::string stopped_by;               // who holds the wheels; empty: nobody
 };
 
 enum class SensorState { observation, end_of_data, fault };
