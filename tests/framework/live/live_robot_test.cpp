@@ -226,6 +226,15 @@ TEST_F(LiveRobots, EndAsAFaultWithWhatTheBaseSaid) {
   EXPECT_EQ(robot->next({}).reason, "the fake: speaks in tongues");
 }
 
+TEST_F(LiveRobots, StandWhenTheBaseSaysWhatMakesNoSense) {
+  const auto robot = made();
+  drive(*robot, 0.3);
+  EXPECT_GT(base.sent_v_mps, 0.0);
+  base.is_mad = true;
+  EXPECT_EQ(robot->next({}).state, SensorState::fault);
+  EXPECT_TRUE(stands_within(0.5));
+}
+
 TEST_F(LiveRobots, RefuseWhatIsNotFinite) {
   const auto robot = made();
   EXPECT_THROW(robot->command({std::numeric_limits<double>::quiet_NaN(), 0.0}, 1.0), std::invalid_argument);
