@@ -114,9 +114,10 @@ TEST_F(LiveRobots, SayNothingWhileTheyAreSilentAndThenZero) {
   robot->be_silent(0.6);
   std::this_thread::sleep_for(std::chrono::milliseconds(60));  // what was on its way
   const int sent = base.sent;
+  const int pulses = base.pulses;
   for (const double begin_s = now_s(); now_s() - begin_s < 0.4;) (void)robot->next({});
   EXPECT_EQ(base.sent, sent);
-  EXPECT_EQ(base.pulses, 0);
+  EXPECT_EQ(base.pulses, pulses);
   EXPECT_GT(base.sent_v_mps, 0.0) << "nobody has told it to stand";
   for (const double begin_s = now_s(); base.sent == sent && now_s() - begin_s < 2.0;) (void)robot->next({});
   EXPECT_EQ(base.sent_v_mps, 0.0);
