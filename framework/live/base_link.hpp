@@ -20,6 +20,8 @@ class BaseLink {
   virtual ~BaseLink() = default;
   // For people: "the robot at /dev/ttyUSB0".
   [[nodiscard]] virtual std::string name() const = 0;
+  // What connect() waits for, for people: "/odom in ROS domain 0". From any thread.
+  [[nodiscard]] virtual std::string awaited() const { return name(); }
 
   // By the thread of the mission. ---------------------------------------------------------------------------------
   // Makes the connection, with the wheels ordered to stand first. False: not now, why says for what reason. Looks at

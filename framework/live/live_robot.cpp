@@ -20,6 +20,7 @@ constexpr double kSayZeroFor_s = 0.5;
 constexpr double kConnectAgainAfter_s = 0.5;
 constexpr double kPulseEvery_s = 0.5;
 constexpr double kMissionLivesFor_s = 1.0;
+constexpr double kPeopleWonderAfter_s = 0.7;
 
 SensorStep fault_of(std::string reason) {
   SensorStep step;
@@ -63,6 +64,7 @@ SensorStep LiveRobot::next(const Budget& budget) {
   heard_s_ = begin_s;  // nobody has listened meanwhile
   while (!budget.exhausted()) {
     asked_s_ = now_s();
+    note_wait(begin_s);
     std::optional<Observation> seen;
     try {
       seen = wait_for_observation(budget);
@@ -71,7 +73,10 @@ SensorStep LiveRobot::next(const Budget& budget) {
       disconnect("");
       return fault_of(fault_);
     }
-    if (seen) return {SensorState::observation, std::move(*seen), {}};
+    if (seen) {
+      note_wait(std::nullopt);
+      return {SensorState::observation, std::move(*seen), {}};
+    }
     if (const double waited_s = now_s() - begin_s; waited_s > rules_.reconnect_s) {
       fault_ = fmt::format("no observation from {} for {:.1f} s{}{}", link_->name(), waited_s,
                            disconnect_reason_.empty() ? "" : ": ", disconnect_reason_);
@@ -80,6 +85,19 @@ SensorStep LiveRobot::next(const Budget& budget) {
     }
   }
   return fault_of("cancelled while waiting for " + link_->name());
+}
+
+void LiveRobot::note_wait(std::optional<double> since_s) {
+  const std::scoped_lock lock(waiting_);
+  waits_since_s_ = since_s;
+  wait_reason_ = disconnect_reason_;
+}
+
+std::string LiveRobot::waits_for() const {
+  const std::scoped_lock lock(waiting_);
+  if (!waits_since_s_ || now_s() - *waits_since_s_ < kPeopleWonderAfter_s) return {};
+  return fmt::format("waiting for {}, {:g} s at most{}{}", link_->awaited(), rules_.reconnect_s,
+                     wait_reason_.empty() ? "" : "; ", wait_reason_);
 }
 
 std::optional<Observation> LiveRobot::wait_for_observation(const Budget& budget) {
@@ -131,7 +149,12 @@ void LiveRobot::command(const Twist& twist, double valid_for_s) {
   ordered_.notify_one();
 }
 
+void LiveRobot::be_silent(double for_s) {
+  silent_until_s_ = now_s() + for_s;
+}
+
 void LiveRobot::stop() noexcept {
+  silent_until_s_ = 0.0;
   orders_.stop();
   const bool is_sent = link_->send_stop();
   if (!is_sent) ++stops_;
@@ -151,6 +174,10 @@ void LiveRobot::send_orders(const std::stop_token& ended) {
 }
 
 void LiveRobot::send_what_counts(double time_s) {
+  if (time_s < silent_until_s_) {
+    moved_s_ = time_s;  // zero is said afterwards
+    return;
+  }
   const std::uint64_t stops = stops_;
   Twist wanted = orders_.ordered(time_s);
   if (time_s - heard_s_ > rules_.silent_s) wanted = {};

@@ -15,10 +15,12 @@
 #include <thread>
 
 #include "framework/config/fields.hpp"
+#include "framework/contracts/command_silence.hpp"
 #include "framework/contracts/connection_report.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
 #include "framework/contracts/stop_report.hpp"
+#include "framework/contracts/wait_report.hpp"
 #include "framework/live/base_link.hpp"
 #include "framework/live/velocity_orders.hpp"
 
@@ -32,7 +34,12 @@ struct LiveRules {
   static void describe(Fields<LiveRules>& fields);
 };
 
-class LiveRobot final : public Sensor, public Drive, public StopReport, public ConnectionReport {
+class LiveRobot final : public Sensor,
+                        public Drive,
+                        public StopReport,
+                        public ConnectionReport,
+                        public WaitReport,
+                        public CommandSilence {
  public:
   // Connects when it is used first.
   LiveRobot(std::unique_ptr<BaseLink> link, const LiveRules& rules, const RobotModel& robot);
@@ -46,16 +53,19 @@ class LiveRobot final : public Sensor, public Drive, public StopReport, public C
   [[nodiscard]] std::optional<Pose2> start() const override { return link_->start(); }
   MissionDisplay* display() override { return link_->display(); }
   std::vector<ConnectionPart> connection_parts() override { return link_->parts(); }
+  [[nodiscard]] std::string waits_for() const override;
 
   // Throws std::invalid_argument when not finite.
   void command(const Twist& twist, double valid_for_s) override;
   void stop() noexcept override;
+  void be_silent(double for_s) override;
   [[nodiscard]] bool is_stop_sent() const noexcept override { return stops_sent_ >= stops_; }
 
  private:
   // The observations that have come, as one; connects and waits up to some ms for them.
   [[nodiscard]] std::optional<Observation> wait_for_observation(const Budget& budget);
   void disconnect(const std::string& why);
+  void note_wait(std::optional<double> since_s);
   void send_orders(const std::stop_token& ended);
   void send_what_counts(double now_s);
 
@@ -66,10 +76,14 @@ class LiveRobot final : public Sensor, public Drive, public StopReport, public C
   std::string fault_;              // that has ended it
   VelocityOrders orders_;
   std::atomic<double> heard_s_{0.0};          // when the base was last heard
+  std::atomic<double> silent_until_s_{0.0};   // nothing is sent
   std::atomic<double> asked_s_{0.0};          // when the mission last asked for anything
   std::atomic<std::uint64_t> stops_{0};       // that the thread that sends is to send
   std::atomic<std::uint64_t> stops_sent_{0};  // of these
-  std::mutex sending_;                        // and whether it is connected
+  mutable std::mutex waiting_;
+  std::optional<double> waits_since_s_;  // what next() waits for, while it does
+  std::string wait_reason_;
+  std::mutex sending_;  // and whether it is connected
   bool is_connected_ = false;
   std::condition_variable_any ordered_;
   bool is_ordered_ = false;

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "maps/base/printable.hpp"
+
 namespace cairn::live {
 namespace {
 
@@ -120,6 +122,9 @@ Observation observation_of(const json& from, const RobotModel& robot) {
                        wrap_angle(number_of(*odometry, "theta_rad"))};
   if (from.contains("compass_rad")) seen.compass_rad = wrap_angle(number_of(from, "compass_rad"));
   if (from.contains("battery_ratio")) seen.battery_ratio = number_of(from, "battery_ratio");
+  const auto stopped_by = from.find("stopped_by");
+  if (stopped_by != from.end() && !stopped_by->is_string()) throw std::runtime_error("\"stopped_by\" must be a text");
+  if (stopped_by != from.end()) seen.stopped_by = printable_excerpt(stopped_by->get<std::string>());
   const auto bumped = from.find("bumped");
   if (bumped != from.end() && !bumped->is_boolean()) throw std::runtime_error("\"bumped\" must be true or false");
   seen.bumped = bumped != from.end() && bumped->get<bool>();
@@ -140,6 +145,7 @@ std::string line_of(const Observation& observation, const RobotModel& robot) {
   out["ranges"] = ordered_json::array();
   for (const RangeReading& reading : observation.ranges) out["ranges"].push_back(json_of(reading, robot));
   if (observation.bumped) out["bumped"] = true;
+  if (!observation.stopped_by.empty()) out["stopped_by"] = observation.stopped_by;
   if (observation.battery_ratio) out["battery_ratio"] = *observation.battery_ratio;
   return out.dump();
 }

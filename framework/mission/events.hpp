@@ -85,6 +85,14 @@ struct Message {
   std::string sentence;
 };
 struct Bumped {};
+// The robot itself lets nobody drive it: an emergency stop. And lets it be driven again.
+struct RobotStopped {
+  std::string by;  // "the emergency topic /e_stop"
+};
+struct RobotReleased {
+  std::string by;
+  double stopped_s = 0.0;  // by the mission's clock
+};
 // Transducers that the collision monitor does not believe any more when they say "no echo", and those of them that have
 // heard something again. Numbers rise.
 struct WentDeaf {
@@ -102,7 +110,7 @@ struct Resumed {
 
 using Event = std::variant<TickDone, MatchingDone, LandmarkChanged, LandmarkRetired, PlanDone, PathStarted, StepStarted,
                            StepEnded, NodeStarted, NodeEnded, MapSaved, Autosaved, AutosaveFailed, Stalled, Message,
-                           Bumped, WentDeaf, HearsAgain, Paused, Resumed>;
+                           Bumped, RobotStopped, RobotReleased, WentDeaf, HearsAgain, Paused, Resumed>;
 
 // What listeners see beside the event. Valid during the call only.
 struct MissionView {

@@ -31,7 +31,8 @@ MissionRunner::MissionRunner(const Mission& mission, const ModuleLibrary& librar
     : loop_(std::make_shared<MissionLoop>(mission, library, options)),
       wall_clock_(options.wall_clock),
       control_(options.control),
-      longest_call_s_(mission.config.watchdog_s) {}
+      longest_call_s_(mission.config.watchdog_s),
+      on_wait_(options.on_wait) {}
 
 MissionRunner::~MissionRunner() = default;
 
@@ -69,6 +70,7 @@ void MissionRunner::watch() {
   const std::chrono::nanoseconds longest(std::llround(longest_call_s_ * 1e9));
   while (!wall_clock_->wait_for(done, kControlPollInterval) && !gave_up_) {
     loop_->stop_if_stalled();
+    report_wait();
     gave_up_ = loop_->give_up_after(longest);
   }
   if (gave_up_)
@@ -76,6 +78,13 @@ void MissionRunner::watch() {
   else
     thread.join();
   gave_up_ = gave_up_ || loop_->exit_was_called_elsewhere();
+}
+
+void MissionRunner::report_wait() {
+  if (!on_wait_) return;
+  const std::string sentence = loop_->waits_for();
+  if (!sentence.empty() && !is_waiting_) on_wait_(sentence);
+  is_waiting_ = !sentence.empty();
 }
 
 RunStatus MissionRunner::status() const {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ struct RunOptions {
   // For pacing, intervals and the watch over modules.
   std::shared_ptr<const WallClock> wall_clock = std::make_shared<SteadyClock>();
   std::optional<LocaliseIn> localise_in = std::nullopt;  // not with resume
+  // Gets a sentence, once each time that the sensor waits for a robot; by the thread of MissionRunner::run().
+  std::function<void(const std::string&)> on_wait{};
 };
 
 struct StepReport {
@@ -117,11 +120,14 @@ class MissionRunner {
 
  private:
   void watch();
+  void report_wait();
 
   std::shared_ptr<MissionLoop> loop_;
   std::shared_ptr<const WallClock> wall_clock_;
   RunControl* control_ = nullptr;
   double longest_call_s_ = 0.0;
+  std::function<void(const std::string&)> on_wait_;
+  bool is_waiting_ = false;
   bool gave_up_ = false;
 };
 

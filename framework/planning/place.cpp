@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/config/config_value.hpp"
+#include "framework/planning/coordinates.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -21,22 +22,9 @@ constexpr std::string_view kWhatAPlaceIs =
   throw MalformedPlace("place \"" + place + "\" " + why + "; " + std::string(kWhatAPlaceIs));
 }
 
-// All comma separated parts as numbers, or nothing when one is not a number.
-std::optional<std::vector<double>> numbers(const std::string& text) {
-  std::vector<double> values;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t comma = text.find(',', begin);
-    const auto value = number_from<double>(trimmed(std::string_view(text).substr(begin, comma - begin)));
-    if (!value) return std::nullopt;
-    values.push_back(*value);
-    if (comma == std::string::npos) return values;
-    begin = comma + 1;
-  }
-}
-
 // "1,", "1,a", "1;2", "1 2": meant as x,y, and no name.
-bool begins_with_a_coordinate(const std::string& text) {
+bool begins_with_a_coordinate(std::string_view text) {
+  if (text.starts_with('[')) text.remove_prefix(1);
   const std::size_t end = text.find_first_of(",; \t");
   if (end == std::string::npos || !number_from<double>(text.substr(0, end))) return false;
   const bool has_letters = std::ranges::any_of(text, [](unsigned char c) { return std::isalpha(c) != 0 || c > 127; });
@@ -69,7 +57,7 @@ Place nearest_place(const std::string& category, const LandmarkGraph& graph) {
 }  // namespace
 
 bool reads_as_place(const std::string& text) {
-  const auto values = numbers(text);
+  const auto values = coordinates_in(text);
   return trimmed(text).starts_with(kNearest) || (values && values->size() > 1);
 }
 
@@ -77,7 +65,7 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph, const Clu
   const std::string place_text(trimmed(text));
   if (place_text.starts_with(kNearest))
     return nearest_place(std::string(trimmed(std::string_view(place_text).substr(kNearest.size()))), graph);
-  if (reads_as_place(place_text)) return place_of(*numbers(place_text), place_text);
+  if (reads_as_place(place_text)) return place_of(*coordinates_in(place_text), place_text);
   if (const Landmark* landmark = graph.find_by_name(place_text)) {
     Place place;
     place.landmarks = {landmark->id};
@@ -89,7 +77,7 @@ Place parse_place(const std::string& text, const LandmarkGraph& graph, const Clu
   // A bare category is its nearest landmark, unless a landmark is called so.
   if (Place place{std::nullopt, false, graph.of_category(place_text)}; !place.landmarks.empty()) return place;
   if (place_text + " " == kNearest) refuse(place_text, "names no category");
-  if (numbers(place_text))
+  if (coordinates_in(place_text))
     refuse(place_text, "is one number" + std::string(graph.find_by_name("L" + place_text) == nullptr
                                                          ? ""
                                                          : " (did you mean \"L" + place_text + "\"?)"));

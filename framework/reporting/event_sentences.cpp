@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "framework/mission/hearing/hearing_record.hpp"
+#include "framework/mission/loop/hold_record.hpp"
 #include "maps/landmarks/close_categories.hpp"
 
 namespace cairn {
@@ -44,6 +45,8 @@ struct Sentence {
   }
   std::string operator()(const Message& e) const { return e.sentence; }
   std::string operator()(const Bumped&) const { return "bumped into something"; }
+  std::string operator()(const RobotStopped& e) const { return text_of(e); }
+  std::string operator()(const RobotReleased& e) const { return text_of(e); }
   std::string operator()(const WentDeaf& e) const { return text_of(e); }
   std::string operator()(const HearsAgain& e) const { return text_of(e); }
   std::string operator()(const Paused&) const { return "paused"; }

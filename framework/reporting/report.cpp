@@ -98,11 +98,13 @@ ordered_json json_of(const std::vector<NodeRun>& runs) {
 }
 
 void add_timeline(ordered_json& report, const RunTimeline& timeline) {
-  report["pauses"] = report["stops"] = ordered_json::array();
+  report["pauses"] = report["stops"] = report["holds"] = ordered_json::array();
   for (const PauseSpan& pause : timeline.pauses())
     report["pauses"].push_back({{"time_s", rounded(pause.time_s)}, {"for_s", rounded(pause.for_s)}});
   for (const RunSpan& stop : timeline.stops())
     report["stops"].push_back({{"begin_s", rounded(stop.begin_s)}, {"end_s", rounded(stop.end_s)}});
+  for (const RunSpan& hold : timeline.holds())
+    report["holds"].push_back({{"begin_s", rounded(hold.begin_s)}, {"end_s", rounded(hold.end_s)}});
 }
 
 ordered_json json_of(const std::vector<StageTime>& times) {

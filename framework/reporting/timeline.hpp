@@ -29,17 +29,22 @@ class RunTimeline : public Listener {
   [[nodiscard]] const std::vector<PauseSpan>& pauses() const { return pauses_; }
   // While the collision monitor allowed nothing of a wanted speed.
   [[nodiscard]] const std::vector<RunSpan>& stops() const { return stops_; }
+  // While the robot itself let nobody drive it.
+  [[nodiscard]] const std::vector<RunSpan>& holds() const { return holds_; }
   [[nodiscard]] const std::vector<double>& bumps_s() const { return bumps_s_; }
   [[nodiscard]] const std::vector<double>& saves_s() const { return saves_s_; }  // of maps, by the mission itself
 
  private:
   void note_stop(double speed_reduction_ratio, double time_s);
+  void note_hold(bool is_held, double time_s);
 
   std::vector<PauseSpan> pauses_;
   std::vector<RunSpan> stops_;
+  std::vector<RunSpan> holds_;
   std::vector<double> bumps_s_;
   std::vector<double> saves_s_;
   bool is_stopped_ = false;
+  bool is_held_ = false;
 };
 
 }  // namespace cairn

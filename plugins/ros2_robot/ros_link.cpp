@@ -46,6 +46,10 @@ std::string RosLink::name() const {
   return fmt::format("the robot in ROS domain {}", config_.domain);
 }
 
+std::string RosLink::awaited() const {
+  return fmt::format("{} in ROS domain {}", config_.odometry, config_.domain);
+}
+
 // Whoever gives the pose has found this participant by then, or gives it again.
 std::optional<Pose2> RosLink::start() {
   const InitialPoseTopic& initial = config_.initial_pose;

@@ -28,6 +28,7 @@ class RosLink final : public live::BaseLink {
   RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard);
 
   [[nodiscard]] std::string name() const override;
+  [[nodiscard]] std::string awaited() const override;
   // Until the odometry comes, two seconds at most.
   [[nodiscard]] bool connect(const Budget& budget, std::string& why) override;
   void disconnect() override;

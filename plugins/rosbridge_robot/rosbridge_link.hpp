@@ -29,6 +29,7 @@ class RosbridgeLink final : public live::BaseLink {
   ~RosbridgeLink() override;
 
   [[nodiscard]] std::string name() const override { return "the robot at " + address_.text(); }
+  [[nodiscard]] std::string awaited() const override { return config_.odometry + " of " + name(); }
   // Until the odometry comes, two seconds at most.
   [[nodiscard]] bool connect(const Budget& budget, std::string& why) override;
   void disconnect() override;

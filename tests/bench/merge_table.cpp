@@ -86,8 +86,13 @@ void print(const std::string& name, const Row& row, bool is_same_place) {
 
 int main(int argc, char** argv) {
   std::vector<Place> places;
-  for (int i = 1; i < argc; ++i)
-    if (auto place = place_of(argv[i])) places.push_back(std::move(*place));
+  try {
+    for (int i = 1; i < argc; ++i)
+      if (auto place = place_of(argv[i])) places.push_back(std::move(*place));
+  } catch (const std::exception& error) {  // a map that cannot be read
+    std::cerr << error.what() << "\n";
+    return 2;
+  }
   if (places.empty() || static_cast<int>(places.size()) != argc - 1) {
     std::cerr << "merge_table PLACE=MAP,MAP,... ...\n";
     return 2;

@@ -122,13 +122,14 @@ TEST_F(EnkiPioneer, TheDoctorSeesAndWigglesIt) {
   EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
   const json said = json::parse(finished.out);
   EXPECT_TRUE(said["ok"]);
-  ASSERT_EQ(said["findings"].size(), 17U);
+  ASSERT_EQ(said["findings"].size(), 18U);
   const json& line = said["findings"][1];
   EXPECT_EQ(line["what"], line_.string());
   EXPECT_EQ(line["values"]["subclass"], "\"p3dx-sh\"");
   EXPECT_EQ(line["values"]["wrong checksums"], "0");
   EXPECT_THAT(line["text"].get<std::string>(), HasSubstr("a second"));
   EXPECT_THAT(finished.out, HasSubstr("16 of 16 transducers were read"));
+  EXPECT_THAT(finished.out, HasSubstr("the base itself stood 2."));
   const Tick last = ticks().back();
   EXPECT_NEAR(last.x_m, 0.7, 0.06);
   EXPECT_NEAR(last.y_m, 0.7, 0.05);

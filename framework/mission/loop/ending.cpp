@@ -21,6 +21,11 @@ void MissionLoop::stop_if_stalled() {
   monitor_.stop_if_stalled([&] { stalled_stage_ = stage; });
 }
 
+std::string MissionLoop::waits_for() const {
+  const WaitReport* const report = wait_report_;
+  return report == nullptr ? std::string() : report->waits_for();
+}
+
 bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   const bool has_exited = fatal_ends_.exit_was_called();
   const bool is_exit_elsewhere = fatal_ends_.exit_was_called_elsewhere();

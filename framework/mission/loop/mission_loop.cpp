@@ -105,6 +105,7 @@ void MissionLoop::connect_landmarks() {
 void MissionLoop::run() {
   const FatalEnds::Thread here(fatal_ends_);
   try {
+    wait_report_ = modules_.sensor.call([](Sensor& sensor) { return dynamic_cast<const WaitReport*>(&sensor); });
     Drive* drive = modules_.sensor.call([](Sensor& sensor) { return sensor.drive(); });
     monitor_.attach({modules_.sensor.part(drive), modules_.clock, modules_.drive});
     if (drive != nullptr) observation_check_.expect_live();
@@ -191,6 +192,7 @@ void MissionLoop::take(Sensed sensed) {
   world_.observe(std::move(sensed.step.observation), sensed.truth);
   keep_pace();
   if (counts_.count(world_.observation)) publisher_.publish(Bumped{});
+  for (const Event& event : holds_.update(world_.observation, world_.time_s)) publisher_.publish(event);
 }
 
 StepsTick MissionLoop::tick_steps() {

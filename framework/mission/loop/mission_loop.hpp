@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/wait_report.hpp"
 #include "framework/mission/clock/mission_clock.hpp"
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
 #include "framework/mission/hearing/hearing_record.hpp"
 #include "framework/mission/localisation/self_finder.hpp"
 #include "framework/mission/loop/display_feed.hpp"
+#include "framework/mission/loop/hold_record.hpp"
 #include "framework/mission/loop/run_counts.hpp"
 #include "framework/mission/loop/steps.hpp"
 #include "framework/mission/perception/perception.hpp"
@@ -30,6 +32,8 @@ class MissionLoop {
   void run();
   // From another thread, while run() runs, every few milliseconds: stops the wheels when ticks have stopped ending.
   void stop_if_stalled();
+  // From the same thread, for people: what the sensor waits for; empty: nothing.
+  [[nodiscard]] std::string waits_for() const;
   // From the same thread: when one call of a module has lasted longer than that (0: none is too long), or a module has
   // called exit(), ends the mission in its place (stops the robot, saves the map) and returns true. run() then returns
   // as soon as the lost call does, if ever, and touches nothing more.
@@ -114,8 +118,10 @@ class MissionLoop {
   Pace pace_;
   Pauses pauses_;
   RunCounts counts_;
+  HoldRecord holds_;
   CollisionMonitor monitor_;
   HearingRecord hearing_;
+  std::atomic<const WaitReport*> wait_report_{nullptr};  // of the sensor, if it reports
   std::atomic<StageClock::Id> stalled_stage_{StageClock::kHost};
   Planning planning_;
   MapSaving saving_;

@@ -1,6 +1,7 @@
 #include "framework/program/common/output_files.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,18 +10,22 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
 
+#include "maps/base/printable.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
 
 constexpr std::chrono::milliseconds kAskAgainAfter(50);
+constexpr std::size_t kMaxHolderBytes = 1024;
 
 [[noreturn]] void fail_lock(const std::filesystem::path& lock, const std::string& what) {
   throw std::runtime_error(lock.string() + ": the lock of the output folder " + what);
@@ -42,19 +47,31 @@ std::optional<int> open_lock(const std::filesystem::path& lock) {
   fail_lock(lock, "is not a plain file; remove it");
 }
 
-// Empty when the holder has not said.
+// Empty when the holder has not said. Its first line is the process, its second the command.
 std::string holder_of(int lock) {
-  std::array<char, 32> text{};
-  const ssize_t size = ::pread(lock, text.data(), text.size(), 0);
-  const std::string_view line = trimmed({text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))}, " \n");
-  const auto pid = number_from<int>(line);
-  return pid && *pid > 0 ? " (process " + std::to_string(*pid) + ")" : "";
+  std::array<char, kMaxHolderBytes> bytes{};
+  const ssize_t size = ::pread(lock, bytes.data(), bytes.size(), 0);
+  const std::string_view text(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  const std::size_t line_end = std::min(text.find('\n'), text.size());
+  const auto pid = number_from<int>(trimmed(text.substr(0, line_end), " "));
+  if (!pid || *pid <= 0) return "";
+  const std::string_view command = trimmed(text.substr(line_end), " \n");
+  return fmt::format(" (process {}{}{})", *pid, command.empty() ? "" : ": ", printable_excerpt(command));
+}
+
+// Of this process, as it was typed but for quotes; empty where the system does not say.
+std::string own_command() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string command{std::istreambuf_iterator<char>(file), {}};
+  std::ranges::replace(command, '\0', ' ');
+  std::ranges::replace(command, '\n', ' ');
+  return command;
 }
 
 void name_holder(int lock) {
-  const std::string pid = std::to_string(::getpid()) + "\n";
+  const std::string holder = fmt::format("{}\n{}\n", ::getpid(), own_command());
   // Only for the error of others: a full disk keeps no mission from running.
-  if (::ftruncate(lock, 0) == 0) (void)!::pwrite(lock, pid.data(), pid.size(), 0);
+  if (::ftruncate(lock, 0) == 0) (void)!::pwrite(lock, holder.data(), holder.size(), 0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "framework/contracts/command_silence.hpp"
 #include "framework/live/steady_time.hpp"
 #include "maps/base/text.hpp"
 
@@ -21,6 +22,10 @@ constexpr double kWiggle_mps = 0.1;
 constexpr double kWiggle_radps = radians(20.0);
 constexpr double kCommandValid_s = 0.25;
 constexpr double kMustStandWithin_s = 1.0;
+constexpr double kSilence_s = 3.0;  // P2OS waits for two
+constexpr double kSilentTurn_radps = radians(10.0);
+constexpr double kTurnedOn_rad = radians(0.5);
+constexpr double kMovesWithin_s = 0.3;  // odometry comes at its own pace
 
 Finding good(std::string what, std::string text) {
   return {true, std::move(what), std::move(text), {}};
@@ -187,6 +192,8 @@ class Wiggle {
     turn_and_drive("left", {0.0, kWiggle_radps}, kWiggle_rad);
     turn_and_drive("right", {0.0, -kWiggle_radps}, -kWiggle_rad);
     stops_by_itself();
+    settle();
+    stops_in_silence();
     sensor_.drive()->stop();
     return std::move(findings_);
   }
@@ -239,6 +246,37 @@ class Wiggle {
         fmt::format("stood {:.2f} s after a command that counts for {:g} s", moved_s - ordered_s, kCommandValid_s);
     findings_.push_back(moved_s - ordered_s < kMustStandWithin_s ? good("stops by itself", text)
                                                                  : bad("stops by itself", text));
+  }
+
+  // It turns, and then nothing is sent at all, as when the cable is pulled: only the base itself can stop the wheels.
+  void stops_in_silence() {
+    auto* const silence = dynamic_cast<CommandSilence*>(sensor_.drive());
+    if (silence == nullptr || is_over()) return;
+    std::optional<Observation> moved;
+    for (const double until_s = live::now_s() + 1.0; !is_over() && live::now_s() < until_s;) {
+      sensor_.drive()->command({0.0, kSilentTurn_radps}, kCommandValid_s);
+      moved = next_of(sensor_, end_, fault_);
+    }
+    silence->be_silent(kSilence_s);
+    const double silent_s = live::now_s();
+    double moved_s = silent_s;
+    while (!is_over() && moved && live::now_s() - silent_s < kSilence_s) {
+      const auto now = next_of(sensor_, end_, fault_);
+      if (!now || std::abs(wrap_angle(now->T_odom_robot.theta_rad - moved->T_odom_robot.theta_rad)) < kTurnedOn_rad)
+        continue;
+      moved = now;
+      moved_s = live::now_s();
+    }
+    sensor_.drive()->stop();
+    const double turned_s = moved_s - silent_s;
+    if (is_over()) return;
+    findings_.push_back(
+        turned_s < kSilence_s - kMovesWithin_s
+            ? good("stops in silence", fmt::format("the base itself stood {:.1f} s after the last message", turned_s))
+            : bad("stops in silence",
+                  fmt::format("the wheels turned for {:g} s after the last message: when the cable is pulled or the "
+                              "network fails, nothing stops it; set the time-out of the base's driver",
+                              kSilence_s)));
   }
 
   void settle() {

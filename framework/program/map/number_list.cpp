@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/planning/coordinates.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
-#include "maps/base/text.hpp"
 
 namespace cairn {
 
@@ -16,16 +16,9 @@ std::vector<double> number_list(std::string_view text, std::string_view names, c
                              exchange::number_text(most) + " with commas between them, found " + in_quotes(text));
   };
   const auto wanted = static_cast<std::size_t>(1 + std::ranges::count(names, ','));
-  std::vector<double> numbers;
-  for (std::string_view rest = text;;) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const auto number = number_from<double>(trimmed(rest.substr(0, comma), " "));
-    if (!number || !(std::abs(*number) <= most)) fail();
-    numbers.push_back(*number);
-    if (comma == rest.size()) break;
-    rest.remove_prefix(comma + 1);
-  }
-  if (numbers.size() != wanted) fail();
+  std::vector<double> numbers = coordinates_in(text).value_or(std::vector<double>{});
+  const auto is_within = [&](double number) { return std::abs(number) <= most; };
+  if (numbers.size() != wanted || !std::ranges::all_of(numbers, is_within)) fail();
   return numbers;
 }
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <sstream>
 #include <stdexcept>
 
+#include "framework/planning/coordinates.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -17,15 +15,9 @@ namespace {
 constexpr const char* kFindMyself = "find_myself";
 
 Pose2 pose_of(const std::string& text) {
-  std::array<double, 3> numbers{};
-  std::size_t count = 0;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ','); ++count) {
-    const auto number = number_from<double>(part);
-    if (count < numbers.size()) numbers[count] = number.value_or(std::numeric_limits<double>::quiet_NaN());
-  }
-  const bool are_numbers = std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
-  if (count != numbers.size() || !are_numbers || text.ends_with(','))
+  const std::vector<double> numbers = coordinates_in(text).value_or(std::vector<double>{});
+  const bool are_finite = std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+  if (numbers.size() != 3 || !are_finite)
     throw std::runtime_error("--pose: " + in_quotes(text) + " is not X,Y,DEGREES, such as 1.5,-2,90");
   return {numbers[0], numbers[1], wrap_angle(radians(numbers[2]))};
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "framework/mission/hearing/hearing_record.hpp"
+#include "framework/mission/loop/hold_record.hpp"
 #include "maps/base/printable.hpp"
 #include "maps/landmarks/close_categories.hpp"
 
@@ -68,6 +69,8 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
     report(time_s, "autosave failed, the mission continues: " + e->reason);
   if (const auto* e = std::get_if<Message>(&event)) report(time_s, e->sentence);
   if (std::holds_alternative<Bumped>(event)) report(time_s, "bumped into something: stopped");
+  if (const auto* e = std::get_if<RobotStopped>(&event)) report(time_s, text_of(*e));
+  if (const auto* e = std::get_if<RobotReleased>(&event)) report(time_s, text_of(*e));
   if (const auto* e = std::get_if<WentDeaf>(&event)) report(time_s, text_of(*e));
   if (const auto* e = std::get_if<HearsAgain>(&event)) report(time_s, text_of(*e));
   if (std::holds_alternative<Paused>(event)) {

@@ -255,6 +255,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   std::optional<Viewer> viewer;
   if (command.view && server) viewer.emplace(command.out, command.control, common.json);
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
+  options.on_wait = [](const std::string& sentence) { std::cerr << sentence << "\n" << std::flush; };
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   MissionRunner runner = runner_of(mission, library, options, command);
   choose_recordings(mission.config, command, runner.has_drive() && !mission.world);

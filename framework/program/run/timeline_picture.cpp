@@ -54,11 +54,13 @@ void add_marks(const RunTimeline& beside, Timeline& timeline) {
     pauses.marks.push_back({pause.time_s, pause.time_s, fmt::format("{:.1f} s", pause.for_s)});
   TimelineMarks stops{"slowed down", MarkKind::stop, {}};
   for (const RunSpan& stop : beside.stops()) stops.marks.push_back({stop.begin_s, stop.end_s, ""});
+  TimelineMarks holds{"held by the robot", MarkKind::stop, {}};
+  for (const RunSpan& hold : beside.holds()) holds.marks.push_back({hold.begin_s, hold.end_s, ""});
   TimelineMarks bumps{"bumped", MarkKind::bump, {}};
   for (const double time_s : beside.bumps_s()) bumps.marks.push_back({time_s, time_s, ""});
   TimelineMarks saves{"map saved", MarkKind::save, {}};
   for (const double time_s : beside.saves_s()) saves.marks.push_back({time_s, time_s, ""});
-  for (TimelineMarks* marks : {&pauses, &stops, &bumps, &saves})
+  for (TimelineMarks* marks : {&pauses, &stops, &holds, &bumps, &saves})
     if (!marks->marks.empty()) timeline.marks.push_back(std::move(*marks));
 }
 

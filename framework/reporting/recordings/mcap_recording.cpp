@@ -131,7 +131,8 @@ bool is_of_the_wall_clock(const Event& event) {
 }
 
 foxglove::LogLevel level_of(const Event& event) {
-  const bool is_warning = std::holds_alternative<Bumped>(event) || std::holds_alternative<WentDeaf>(event);
+  const bool is_warning = std::holds_alternative<Bumped>(event) || std::holds_alternative<RobotStopped>(event) ||
+                          std::holds_alternative<WentDeaf>(event);
   return is_warning ? foxglove::LogLevel::warning : foxglove::LogLevel::info;
 }
 

@@ -68,6 +68,7 @@ std::optional<Observation> RobotObserver::take(const Odometry& odometry, double 
   observation.compass_rad = std::exchange(compass_rad_, std::nullopt);
   observation.battery_ratio = battery_ratio_;
   observation.bumped = std::ranges::find(bumped_, 1) != bumped_.end();
+  if (is_emergency_) observation.stopped_by = "the emergency topic " + topics_.emergency;
   base_ahead_s_ = odometry.header.stamp_s - arrived_s;
   poses_.add(observation.stamp_s, *pose);
   observation.ranges = ranges_.seen_from(observation.stamp_s, *pose, poses_);

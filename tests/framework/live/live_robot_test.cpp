@@ -108,6 +108,30 @@ TEST_F(LiveRobots, SayZeroForHalfASecondThenOnlyThatTheMissionLives) {
   EXPECT_EQ(base.sent, sent);
 }
 
+TEST_F(LiveRobots, SayNothingWhileTheyAreSilentAndThenZero) {
+  const auto robot = made();
+  drive(*robot, 0.3);
+  robot->be_silent(0.6);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));  // what was on its way
+  const int sent = base.sent;
+  const int pulses = base.pulses;
+  for (const double begin_s = now_s(); now_s() - begin_s < 0.4;) (void)robot->next({});
+  EXPECT_EQ(base.sent, sent);
+  EXPECT_EQ(base.pulses, pulses);
+  EXPECT_GT(base.sent_v_mps, 0.0) << "nobody has told it to stand";
+  for (const double begin_s = now_s(); base.sent == sent && now_s() - begin_s < 2.0;) (void)robot->next({});
+  EXPECT_EQ(base.sent_v_mps, 0.0);
+}
+
+TEST_F(LiveRobots, AStopEndsTheSilence) {
+  const auto robot = made();
+  base.stops_by_the_sender = true;
+  drive(*robot, 0.3);
+  robot->be_silent(30.0);
+  robot->stop();
+  EXPECT_TRUE(stands_within(0.5));
+}
+
 TEST_F(LiveRobots, DoNotSayThatAMissionLivesThatAsksForNothing) {
   const auto robot = made();
   (void)robot->next({});
@@ -174,12 +198,42 @@ TEST_F(LiveRobots, EndAsAFaultWhenNobodyIsThere) {
   EXPECT_THAT(step.reason, HasSubstr(" s: it is off"));
 }
 
+TEST_F(LiveRobots, SayWithinASecondWhatTheyWaitForAndForHowLong) {
+  base.is_there = false;
+  LiveRules rules;
+  rules.reconnect_s = 1.5;
+  const auto robot = made(rules);
+  EXPECT_EQ(robot->waits_for(), "");
+  std::thread mission([&] { EXPECT_EQ(robot->next({}).state, SensorState::fault); });
+  const double begin_s = now_s();
+  while (robot->waits_for().empty() && now_s() - begin_s < 1.4)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_LT(now_s() - begin_s, 1.0);
+  EXPECT_EQ(robot->waits_for(), "waiting for the fake, 1.5 s at most; it is off");
+  mission.join();
+}
+
+TEST_F(LiveRobots, DoNotWaitOnceTheRobotIsThere) {
+  const auto robot = made();
+  drive(*robot, 0.9);
+  EXPECT_EQ(robot->waits_for(), "");
+}
+
 TEST_F(LiveRobots, EndAsAFaultWithWhatTheBaseSaid) {
   base.is_mad = true;
   const auto robot = made();
   EXPECT_EQ(robot->next({}).reason, "the fake: speaks in tongues");
   EXPECT_GE(base.stops, 1);
   EXPECT_EQ(robot->next({}).reason, "the fake: speaks in tongues");
+}
+
+TEST_F(LiveRobots, StandWhenTheBaseSaysWhatMakesNoSense) {
+  const auto robot = made();
+  drive(*robot, 0.3);
+  EXPECT_GT(base.sent_v_mps, 0.0);
+  base.is_mad = true;
+  EXPECT_EQ(robot->next({}).state, SensorState::fault);
+  EXPECT_TRUE(stands_within(0.5));
 }
 
 TEST_F(LiveRobots, RefuseWhatIsNotFinite) {

@@ -58,6 +58,7 @@ TEST(Wire, AnObservationComesBackToTheLastBit) {
   seen.compass_rad = -1.0 / 7.0;
   seen.bumped = true;
   seen.battery_ratio = 0.9;
+  seen.stopped_by = "the red button";
   seen.ranges = {reading_of(0, 1.0 / 3.0), reading_of(1, kInf), reading_of(1, -kInf),
                  reading_of(0, std::numeric_limits<double>::quiet_NaN())};
   RangeReading laser = reading_of(0, 7.0);
@@ -72,6 +73,7 @@ TEST(Wire, AnObservationComesBackToTheLastBit) {
   EXPECT_EQ(back.T_odom_robot, seen.T_odom_robot);
   EXPECT_EQ(back.compass_rad, seen.compass_rad);
   EXPECT_TRUE(back.bumped);
+  EXPECT_EQ(back.stopped_by, "the red button");
   EXPECT_EQ(back.battery_ratio, seen.battery_ratio);
   ASSERT_EQ(back.ranges.size(), 5U);
   for (std::size_t i : {0U, 1U, 2U, 4U}) {

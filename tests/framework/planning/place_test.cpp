@@ -36,6 +36,13 @@ TEST(Place, TwoNumbersAreAPositionWhoseHeadingDoesNotMatter) {
   EXPECT_FALSE(place.heading_matters);
 }
 
+TEST(Place, MayStandInBracketsAsInYaml) {
+  EXPECT_EQ(*parse_place("[0.5, -1]", two_landmarks()).pose, (Pose2{0.5, -1.0, 0.0}));
+  EXPECT_TRUE(parse_place("[1, 2, 90]", two_landmarks()).heading_matters);
+  EXPECT_TRUE(reads_as_place("[1, 2]"));
+  EXPECT_EQ(error_of("[1, 2"), "place \"[1, 2\" is not made of numbers alone" + kWhatAPlaceIs);
+}
+
 TEST(Place, AThirdNumberIsAHeadingInDegrees) {
   const Place place = parse_place("1,2,90", two_landmarks());
   EXPECT_TRUE(place.heading_matters);

@@ -1,5 +1,6 @@
 #include "framework/reporting/report.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace cairn {
@@ -75,6 +76,23 @@ TEST(RunReport, ListsTheContactsThatTheSimulationJudged) {
   EXPECT_EQ(text.substr(at, text.find(']', at) - at + 1),
             "\"contacts\": [\n    {\n      \"time_s\": 12.5,\n      \"speed_mps\": 0.25,\n      "
             "\"could_be_seen\": true\n    }\n  ]");
+}
+
+TEST(RunReport, ListsWhenTheRobotWasHeldAndByWhom) {
+  const OccupancyGrid grid(0.05);
+  const LandmarkGraph graph;
+  const RobotModel robot;
+  Observation observation;
+  RunReport report;
+  for (int second = 0; second < 6; ++second) {
+    observation.stopped_by = second == 2 || second == 3 ? "the emergency topic /e_stop" : "";
+    const WorldView world{grid, graph, robot, {}, static_cast<double>(second), &observation};
+    if (second == 2) report.on(RobotStopped{observation.stopped_by}, {world});
+    report.on(TickDone{}, {world});
+  }
+  const std::string text = report.report_json({}, {}, graph, {});
+  EXPECT_THAT(text, testing::HasSubstr("\"holds\": [\n    {\n      \"begin_s\": 2.0,\n      \"end_s\": 4.0\n"));
+  EXPECT_THAT(text, testing::HasSubstr("2.00 s: the robot is stopped by the emergency topic /e_stop"));
 }
 
 class RunReportOfALongMission : public testing::Test {

@@ -107,6 +107,7 @@ function draw_marks() {
   };
   for (const run of report.steps ?? []) add(run.begin_s, run.end_s, 'step', `${run.step}: ${run.outcome}`);
   for (const stop of report.stops ?? []) add(stop.begin_s, stop.end_s, 'stop', 'stopped by the collision monitor');
+  for (const hold of report.holds ?? []) add(hold.begin_s, hold.end_s, 'stop', 'held by the robot itself');
   for (const pause of report.pauses ?? []) add(pause.time_s, pause.time_s, 'pause', `paused for ${pause.for_s} s`);
   for (const touch of report.contacts ?? []) add(touch.time_s, touch.time_s, 'contact', 'touched something');
 }

@@ -71,7 +71,8 @@ TEST_F(OutputFiles, AFolderIsHeldByOneRunOnly) {
   hold_folder(folder_);
   EXPECT_THAT([&] { hold_folder(folder_, std::chrono::milliseconds(100)); },
               ThrowsMessage<std::runtime_error>(
-                  HasSubstr("another run (process " + std::to_string(::getpid()) + ") is writing into this folder")));
+                  AllOf(HasSubstr("another run (process " + std::to_string(::getpid()) + ": "),
+                        HasSubstr("framework_program_test"), HasSubstr(") is writing into this folder"))));
   EXPECT_TRUE(is_folder_held(folder_));
   EXPECT_EQ(fs::status(folder_ / kFolderLock).permissions(), fs::perms(0600));
 }

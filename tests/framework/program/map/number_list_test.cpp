@@ -17,6 +17,7 @@ std::vector<double> numbers(const std::string& text) {
 TEST(NumberList, HoldsAsManyNumbersAsItHasNames) {
   EXPECT_THAT(numbers("1,-2.5,90"), ElementsAre(1.0, -2.5, 90.0));
   EXPECT_THAT(numbers(" 1 , 2,3e1 "), ElementsAre(1.0, 2.0, 30.0));
+  EXPECT_THAT(numbers("[1, 2, 30]"), ElementsAre(1.0, 2.0, 30.0));
   EXPECT_THAT(numbers("100,-100,0"), ElementsAre(100.0, -100.0, 0.0));
 }
 

@@ -71,6 +71,15 @@ TEST_F(ProgressLineTest, ALongLineIsCutAtTheTerminalsWidth) {
   EXPECT_THAT(out_.str(), EndsWith("..."));
 }
 
+TEST_F(ProgressLineTest, AnEmergencyStopSaysWhoHoldsTheRobotAndForHowLong) {
+  ProgressLine line(out_, false, [&] { return status_; });
+  publish(line, RobotStopped{"the emergency topic /e_stop"}, 3.0);
+  publish(line, RobotReleased{"the emergency topic /e_stop", 4.5}, 7.5);
+  EXPECT_EQ(out_.str(),
+            "    3.0 s  the robot is stopped by the emergency topic /e_stop: it stands until that is released\n"
+            "    7.5 s  released by the emergency topic /e_stop after 4.5 s\n");
+}
+
 TEST_F(ProgressLineTest, AStallSaysForHowLongAndWhere) {
   ProgressLine line(out_, false, [&] { return status_; });
   publish(line, Stalled{"detector", "template_matcher", 1.25}, 3.0);

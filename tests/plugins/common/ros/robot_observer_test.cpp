@@ -76,8 +76,10 @@ TEST(RobotObserver, AnEmergencyLastsUntilItIsOver) {
   EXPECT_FALSE(watched.observer.is_emergency());
   watched.observer.take_emergency(true, 1.0);
   EXPECT_TRUE(watched.observer.is_emergency());
+  EXPECT_EQ(watched.odometry(1.5)->stopped_by, "the emergency topic /e_stop");
   watched.observer.take_emergency(false, 2.0);
   EXPECT_FALSE(watched.observer.is_emergency());
+  EXPECT_EQ(watched.odometry(2.5)->stopped_by, "");
 }
 
 TEST(RobotObserver, OdometryThatIsNoPoseIsHeardAndLeftOut) {
