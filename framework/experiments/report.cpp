@@ -133,10 +133,15 @@ ordered_json json_of_trial(const TrialVerdict& trial) {
 }
 
 ordered_json json_of_home(const HomeVerdict& home) {
-  ordered_json json = {{"rooms", home.rooms},          {"entered", home.entered},
-                       {"area_m2", home.area_m2},      {"known_ratio", home.known_ratio},
-                       {"contacts", home.contacts},    {"fast_contacts", home.fast_contacts},
-                       {"success", home.said_success}, {"end", home.end}};
+  ordered_json json = {{"rooms", home.rooms},
+                       {"entered", home.entered},
+                       {"area_m2", home.area_m2},
+                       {"known_ratio", home.known_ratio},
+                       {"contacts", home.contacts},
+                       {"fast_contacts", home.fast_contacts},
+                       {"success", home.said_success},
+                       {"end", home.end},
+                       {"not_entered", home.not_entered}};
   if (home.known_90_s) json["known_90_s"] = *home.known_90_s;
   return json;
 }

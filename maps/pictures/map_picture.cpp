@@ -19,6 +19,7 @@ constexpr int kMarginCells = 5;
 constexpr double kSurelyFreeNat = 2.0;  // P < 0.12
 constexpr double kLandmarkMarginM = 0.1;
 constexpr Stroke kTruthStroke{kPlanned, 2.0, 0.9};
+constexpr Fill kAreaFill{kGoal, 0.22};
 constexpr Stroke kDrivenStroke{kDriven, 1.5, 0.9};
 constexpr Stroke kPlannedStroke{kPlanned, 3.5, 0.95};
 constexpr Stroke kDoorStroke{kClosed, 3.0, 0.9};
@@ -53,6 +54,8 @@ Extent extent_of(const MapPicture& picture, const GraphLayer& graph) {
   for (const auto* paths : {&picture.doors, &picture.mover_paths, &picture.truth})
     for (const std::vector<Point>& path : *paths)
       for (const Point& p : path) extent.include(p, kLandmarkMarginM);
+  for (const MarkedArea& area : picture.areas)
+    for (const Point& p : {area.min_m, area.max_m}) extent.include(p, kLandmarkMarginM);
   for (const Pose2& pose : picture.robot_path) extent.include(pose.position(), shape_of(picture).reach_m());
   for (const auto& place : {picture.start, picture.goal})
     if (place) extent.include(*place, 2.0 * kLandmarkMarginM);
@@ -81,11 +84,44 @@ CellBox cells_of(const OccupancyGrid& grid, const MapFrame& frame) {
   return {min, max};
 }
 
-void draw_grid(Canvas& canvas, const MapFrame& frame, const OccupancyGrid* grid) {
+// Of blocks that the picture cannot show apart, occupied before free before unknown.
+CellImage three_greys_of(const OccupancyGrid& grid, const CellBox& cells) {
+  return image_of(cells, [&](const CellBox& block) {
+    bool is_free = false;
+    for (int y = block.min.y; y < block.max.y; ++y)
+      for (int x = block.min.x; x < block.max.x; ++x) {
+        const CellState state = grid.state({x, y});
+        if (state == CellState::occupied) return colour_of_ol(255);
+        is_free = is_free || state == CellState::free;
+      }
+    return colour_of_ol(is_free ? 0 : kUnknownOl);
+  });
+}
+
+void draw_grid(Canvas& canvas, const MapFrame& frame, const MapPicture& picture) {
+  const OccupancyGrid* grid = picture.grid;
   canvas.fill_box(frame.box, {grid == nullptr ? kWhite : colour_of_ol(kUnknownOl)});
   if (grid == nullptr) return;
   const CellBox cells = intersected(cells_of(*grid, frame), grid->bounds());
-  if (!cells.empty()) canvas.image(pixel_box_of(frame, *grid, cells), image_of(*grid, cells));
+  if (!cells.empty())
+    canvas.image(pixel_box_of(frame, *grid, cells),
+                 picture.has_three_greys ? three_greys_of(*grid, cells) : image_of(*grid, cells));
+}
+
+PixelBox box_of(const MarkedArea& area, const MapFrame& frame) {
+  const Pixel a = frame.pixel_of(area.min_m);
+  const Pixel b = frame.pixel_of(area.max_m);
+  return {a.cwiseMin(b), a.cwiseMax(b)};
+}
+
+void draw_areas(Canvas& canvas, const MapPicture& picture, const MapFrame& frame) {
+  constexpr TextStyle kText{kGoal, 14.0, Align::centre, true};
+  for (const MarkedArea& area : picture.areas) {
+    if (!is_drawable(area.min_m) || !is_drawable(area.max_m)) continue;
+    const PixelBox box = box_of(area, frame);
+    canvas.fill_box(box, kAreaFill);
+    if (Canvas::text_width_px(area.words, kText) < box.width()) canvas.text(box.centre(), area.words, kText);
+  }
 }
 
 void draw_start(Canvas& canvas, const Pixel& at) {
@@ -224,8 +260,9 @@ void write_map_picture(const std::filesystem::path& file, const MapPicture& want
   const double legend_px = std::max(24.0, legend.height_px());
   Canvas canvas(width_px, static_cast<int>(std::ceil(legend_top_px + legend_px + 12.0)), kPaper);
 
-  draw_grid(canvas, frame, picture.grid);
+  draw_grid(canvas, frame, picture);
   for (const std::vector<Point>& outline : picture.truth) canvas.line(frame.pixels_of(outline), kTruthStroke);
+  draw_areas(canvas, picture, frame);
   for (const std::vector<Point>& path : picture.mover_paths) canvas.line(frame.pixels_of(path), kMoverStroke);
   for (const std::vector<Point>& leaf : picture.doors) canvas.line(frame.pixels_of(leaf), kDoorStroke);
   canvas.line(frame.pixels_of(picture.driven), kDrivenStroke);

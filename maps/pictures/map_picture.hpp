@@ -22,6 +22,13 @@ struct MarkedPlace {
   std::string words;
 };
 
+// A rectangle along the axes of the map, and words in its middle.
+struct MarkedArea {
+  Point min_m{0.0, 0.0};
+  Point max_m{0.0, 0.0};
+  std::string words;
+};
+
 struct MapPicture {
   const OccupancyGrid* grid = nullptr;  // none or empty: a blank page
   const LandmarkGraph* graph = nullptr;
@@ -35,12 +42,14 @@ struct MapPicture {
   std::vector<std::vector<Point>> doors;
   std::vector<std::vector<Point>> mover_paths;
   std::vector<Pose2> robot_path;         // the robot's outline is drawn at both ends and some way apart between
+  std::vector<MarkedArea> areas;         // tinted, over the truth
   std::vector<MarkedPlace> near_misses;  // something like a landmark, but not like enough
   std::optional<Point> start;
   std::optional<Point> goal;
   std::optional<Pose2> robot;
   double robot_radius_m = 0.0;
   std::vector<Point> robot_polygon_m;  // in the robot's frame, of robot_path; empty: a disc of that radius
+  bool has_three_greys = false;        // free, unknown, occupied and nothing between: a small file
   std::string title;
   double longer_side_px = 930.0;  // of the map itself, about
 };

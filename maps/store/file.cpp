@@ -86,6 +86,7 @@ void check_is_file(const std::filesystem::path& file) {
 
 int check_kind_of(const std::string& header) {
   if (header.empty()) throw StoreError("is empty");
+  if (header.starts_with("\x1f\x8b")) throw StoreError("is packed by gzip: unpack it with gunzip");
   if (!std::string_view(header).starts_with(kSqliteMagic)) throw StoreError("is not a saved map (no SQLite 3 file)");
   if (header.size() < kHeaderBytes)
     throw StoreError("is truncated: only " + std::to_string(header.size()) + " bytes are there");

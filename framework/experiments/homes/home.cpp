@@ -167,7 +167,7 @@ class HomeDrawing {
       const double margin_m = 0.5 * width_m + kBesideDoor_m + 0.5 * config_.wall_m;
       const double along_m = layout_.between(side.from_m + margin_m, side.to_m - margin_m);
       const Point middle_m = side.is_upright ? Point(side.at_m, along_m) : Point(along_m, side.at_m);
-      home_.doors.push_back({middle_m, width_m, {side.rooms[0], side.rooms[1]}});
+      home_.doors.push_back({middle_m, width_m, {side.rooms[0], side.rooms[1]}, side.is_upright});
       sides_.push_back(side);
     }
   }

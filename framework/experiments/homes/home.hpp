@@ -41,7 +41,12 @@ struct HomeRoom {
 struct HomeDoor {
   Point middle_m{0.0, 0.0};
   double width_m = 0.0;
-  int rooms[2] = {0, 0};  // that it joins
+  int rooms[2] = {0, 0};    // that it joins
+  bool is_upright = false;  // its leaf along y
+
+  [[nodiscard]] Point from_m() const { return middle_m - half_m(); }
+  [[nodiscard]] Point to_m() const { return middle_m + half_m(); }
+  [[nodiscard]] Point half_m() const { return is_upright ? Point(0.0, 0.5 * width_m) : Point(0.5 * width_m, 0.0); }
 };
 
 struct Home {

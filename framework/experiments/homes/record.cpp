@@ -44,6 +44,7 @@ HomeVerdict HomeRecord::verdict(const MissionResult& result, const std::vector<T
   for (std::size_t i = 0; i < home_.rooms.size(); ++i) {
     verdict.rooms += can_enter_[i] != 0 ? 1 : 0;
     verdict.entered += can_enter_[i] != 0 && entered_[i] != 0 ? 1 : 0;
+    if (can_enter_[i] != 0 && entered_[i] == 0) verdict.not_entered.push_back(static_cast<int>(i));
   }
   verdict.area_m2 = cell_m2_ * static_cast<double>(reachable_m_.size());
   verdict.known_ratio = known_ratio_;

@@ -23,7 +23,8 @@ struct HomeVerdict {
   int contacts = 0;
   int fast_contacts = 0;  // with what could be seen
   bool said_success = false;
-  std::string end;  // what the first step that explored said at its end
+  std::string end;               // what the first step that explored said at its end
+  std::vector<int> not_entered;  // of the home's rooms, of those that can be entered
 };
 
 class HomeRecord : public Listener {

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "cairn experiment row 1";
+constexpr const char* kFormat = "cairn experiment row 2";
 
 template <class T, class Of>
 concept Is = std::same_as<std::remove_const_t<T>, Of>;
@@ -69,7 +69,8 @@ void visit(auto& file, Is<TrialVerdict> auto& v) {
   file(v.contacts, v.fast_contacts, v.stand, v.silences, v.goals, v.fault_count);
 }
 void visit(auto& file, Is<HomeVerdict> auto& v) {
-  file(v.rooms, v.entered, v.area_m2, v.known_ratio, v.known_90_s, v.contacts, v.fast_contacts, v.said_success, v.end);
+  file(v.rooms, v.entered, v.area_m2, v.known_ratio, v.known_90_s, v.contacts, v.fast_contacts, v.said_success, v.end,
+       v.not_entered);
 }
 void visit(auto& file, Is<StageTime> auto& v) {
   file(v.stage, v.module, v.count, v.median_us, v.p99_us, v.worst_us, v.total_s, v.own_s);

@@ -227,15 +227,27 @@ std::vector<std::string> write_place_maps(const ExperimentConfig& config, const 
   return missing;
 }
 
-// The map of each home, over the true walls, in the run's folder.
-std::vector<std::string> write_home_maps(const std::vector<ExperimentRow>& rows) {
+// The map of a home with the truth in its colours, in the run's folder.
+void write_home_map(const ExperimentConfig& config, const ExperimentRow& row) {
+  if (row.result.map_file.empty()) throw std::runtime_error(row.folder.string() + ": the run saved no map");
+  const Home home = random_home(config.homes, static_cast<std::uint64_t>(row.seed));
+  const World world = load_world(row.folder / "world.yaml", {});
+  DrawnTruth truth{&world, {}, {}};
+  for (const HomeDoor& door : home.doors) truth.doors.push_back({door.from_m(), door.to_m()});
+  for (const int i : row.home->not_entered) {
+    const HomeRoom& room = home.rooms.at(static_cast<std::size_t>(i));
+    truth.not_entered.push_back({room.min_m, room.max_m, "not entered"});
+  }
+  draw_over_truth(row.folder / "map.png", load_map(row.folder / row.result.map_file), truth,
+                  row.variant + ", home " + std::to_string(row.seed));
+}
+
+std::vector<std::string> write_home_maps(const ExperimentConfig& config, const std::vector<ExperimentRow>& rows) {
   std::vector<std::string> missing;
   for (const ExperimentRow& row : rows) {
     if (!row.home) continue;
     try {
-      if (row.result.map_file.empty()) throw std::runtime_error(row.folder.string() + ": the run saved no map");
-      draw_over_truth(row.folder / "map.png", load_map(row.folder / row.result.map_file),
-                      load_world(row.folder / "world.yaml", {}), row.variant + ", home " + std::to_string(row.seed));
+      write_home_map(config, row);
     } catch (const std::exception& error) {
       missing.emplace_back(error.what());
     }
@@ -254,7 +266,7 @@ std::vector<std::string> write_charts(const ExperimentConfig& config, const std:
   if (config.ring_profile) std::ranges::move(ring_charts(config, rows), std::back_inserter(charts));
   if (config.experiment == ExperimentKind::curves) charts = curve_charts(config, rows);
   std::vector<std::string> missing;
-  if (config.experiment == ExperimentKind::homes) missing = write_home_maps(rows);
+  if (config.experiment == ExperimentKind::homes) missing = write_home_maps(config, rows);
   if (config.experiment == ExperimentKind::places) missing = write_place_maps(config, rows, out);
   for (const NamedChart& named : charts) {
     const ChartOutcome outcome = write_chart(out / named.file_name, named.chart);

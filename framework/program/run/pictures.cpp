@@ -6,7 +6,6 @@
 #include "framework/program/run/timeline_picture.hpp"
 #include "maps/pictures/coarse_picture.hpp"
 #include "maps/pictures/drawing/chart.hpp"
-#include "maps/pictures/map_picture.hpp"
 #include "maps/pictures/saved_map_picture.hpp"
 
 namespace cairn {
@@ -83,15 +82,18 @@ void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, cons
   write_map_picture(file, picture);
 }
 
-void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const World& truth,
+void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const DrawnTruth& truth,
                      const std::string& title) {
   constexpr double kLongerSide_px = 560.0;
   constexpr int kCircleCorners = 36;
   MapPicture picture;
   picture.grid = &map.grid;
   picture.longer_side_px = kLongerSide_px;
-  for (const WorldWall& wall : truth.walls) picture.truth.push_back(wall.points_m);
-  for (const WorldObject& object : truth.objects)
+  picture.has_three_greys = true;
+  picture.doors = truth.doors;
+  picture.areas = truth.not_entered;
+  for (const WorldWall& wall : truth.world->walls) picture.truth.push_back(wall.points_m);
+  for (const WorldObject& object : truth.world->objects)
     for (std::vector<Point> outline : object.contour.outlines_m(kCircleCorners)) {
       for (Point& p : outline) p = object.T_map_object * p;
       outline.push_back(outline.front());

@@ -9,6 +9,7 @@
 
 #include "framework/mission/runner.hpp"
 #include "framework/reporting/report.hpp"
+#include "maps/pictures/map_picture.hpp"
 #include "maps/store/map_store.hpp"
 
 namespace cairn {
@@ -23,8 +24,15 @@ struct RunPictures {
 
 // A saved map with its landmarks, routes and driven path. Throws as write_map_picture() does.
 void draw_saved_map(const std::filesystem::path& file, const SavedMap& map, const std::string& title);
-// Small, the driven path only, with the walls and objects of the true world under it.
-void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const World& truth,
+
+// The true world below a map: its walls and objects, and what only those know who have made it.
+struct DrawnTruth {
+  const World* world = nullptr;
+  std::vector<std::vector<Point>> doors;  // lines across them
+  std::vector<MarkedArea> not_entered;    // rooms
+};
+// Small, in three greys, with the driven path only. Throws as write_map_picture() does.
+void draw_over_truth(const std::filesystem::path& file, const SavedMap& map, const DrawnTruth& truth,
                      const std::string& title);
 
 }  // namespace cairn

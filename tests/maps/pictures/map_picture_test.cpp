@@ -81,6 +81,41 @@ TEST_F(MapPictures, ShowFreeWhiteUnknownGreyOccupiedBlack) {
   EXPECT_GT(png.count(occupied), 20'000);
 }
 
+TEST_F(MapPictures, InThreeGreysHaveNothingBetweenThem) {
+  for (int y = 20; y < 80; ++y)
+    for (int x = 20; x < 100; ++x) room_.set_log_odds({x, y}, static_cast<LogOdds>(-900 + 7 * x));
+  MapPicture picture;
+  picture.grid = &room_;
+  const Png fine = drawn(picture);
+  const auto fine_bytes = fs::file_size(file());
+  picture.has_three_greys = true;
+  const Png coarse = drawn(picture);
+  EXPECT_LT(fs::file_size(file()), fine_bytes);
+  const long fine_free = fine.count(pictures::colour_of_ol(0));
+  EXPECT_GT(coarse.count(pictures::colour_of_ol(0)), fine_free + 100'000);
+  EXPECT_GT(coarse.count(pictures::colour_of_ol(255)), 20'000);
+}
+
+TEST_F(MapPictures, TintAreasAndWriteInThem) {
+  MapPicture picture;
+  picture.grid = &room_;
+  const Png bare = drawn(picture);
+  picture.areas = {{{1.0, 1.0}, {4.0, 3.0}, "not entered"}};
+  const Png tinted = drawn(picture);
+  EXPECT_EQ(bare.count(pictures::kGoal), 0);
+  EXPECT_GT(tinted.count(pictures::kGoal), 50) << "the words";
+  const Pixel walls = bare.centre_of(pictures::colour_of_ol(room_.ol({0, 0})));
+  const auto at = [&](const Png& png, double x_m, double y_m) {
+    const double px_per_m = 155.0;  // about: the picture is 930 pixels for 6 m
+    return png.at(static_cast<int>(walls.x() + (x_m - 3.0) * px_per_m),
+                  static_cast<int>(walls.y() - (y_m - 2.5) * px_per_m));
+  };
+  EXPECT_FALSE(at(tinted, 1.5, 2.6) == at(bare, 1.5, 2.6));
+  EXPECT_TRUE(at(tinted, 4.6, 1.5) == at(bare, 4.6, 1.5)) << "beside the area";
+  picture.areas = {{{kNan, 0.0}, {1.0, 1.0}, "nowhere"}};
+  EXPECT_EQ(drawn(picture).count(pictures::kGoal), 0);
+}
+
 TEST_F(MapPictures, HaveNorthUpAndEastRight) {
   OccupancyGrid grid(0.05);
   grid.include({{0, 0}, {100, 100}});

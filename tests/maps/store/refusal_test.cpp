@@ -20,6 +20,8 @@ TEST_F(MapStore, RefusesWhatIsNoSavedMap) {
   EXPECT_EQ(refusal_of(file()), "is empty");
   write_bytes(file(), "P5 10 10 255");
   EXPECT_EQ(refusal_of(file()), "is not a saved map (no SQLite 3 file)");
+  write_bytes(file(), "\x1f\x8b\x08");
+  EXPECT_EQ(refusal_of(file()), "is packed by gzip: unpack it with gunzip");
   fs::remove(file());
   run_sql(file(), "CREATE TABLE t (a)");
   EXPECT_EQ(refusal_of(file()),

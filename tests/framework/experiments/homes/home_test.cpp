@@ -31,6 +31,23 @@ TEST(RandomHome, KeepsItsRangesOnEverySeed) {
   }
 }
 
+TEST(RandomHome, DoorsAreGapsFromJambToJamb) {
+  for (std::uint64_t seed = 0; seed < 15; ++seed) {
+    const Home home = random_home({}, seed);
+    const World world = loaded(home);
+    for (const HomeDoor& door : home.doors) {
+      EXPECT_NEAR((door.to_m() - door.from_m()).norm(), door.width_m, 1e-9);
+      for (const Point& end_m : {door.from_m(), door.to_m()})
+        EXPECT_TRUE(std::ranges::any_of(world.walls,
+                                        [&](const WorldWall& wall) {
+                                          return (0.5 * (wall.points_m.front() + wall.points_m.back()) - end_m).norm() <
+                                                 0.002;
+                                        }))
+            << "no jamb at " << end_m.transpose() << " of seed " << seed;
+    }
+  }
+}
+
 TEST(RandomHome, ARobotOfAnyOfTheThreeSizesGetsIntoEveryRoom) {
   for (std::uint64_t seed = 0; seed < 15; ++seed) {
     const Home home = random_home({}, seed);

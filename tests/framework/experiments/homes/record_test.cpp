@@ -1,5 +1,6 @@
 #include "framework/experiments/homes/record.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "framework/files/world_file.hpp"
@@ -41,6 +42,8 @@ TEST_F(Exploring, RoomsCountOnceTheRobotIsInThem) {
   EXPECT_EQ(verdict.rooms, static_cast<int>(home.rooms.size()));
   EXPECT_GE(verdict.entered, 2);
   EXPECT_LE(verdict.entered, 3);
+  EXPECT_EQ(static_cast<int>(verdict.not_entered.size()), verdict.rooms - verdict.entered);
+  EXPECT_THAT(verdict.not_entered, testing::Not(testing::Contains(testing::AnyOf(0, 1))));
 }
 
 TEST_F(Exploring, TheShareIsThatOfWhereTheRobotCanBe) {
