@@ -21,7 +21,7 @@ def test_pip_installs_the_package_in_a_virtual_environment(tmp_path):
     python = tmp_path / "venv/bin/python"
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     # The tree is built: nothing of it is built again, and nothing comes from the network.
-    subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-index", SOURCE / "python"],
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-index", SOURCE],
                    check=True, env={**environment, "CAIRN_BUILD": str(BUILD), "CAIRN_BUILD_AS_IS": "1"})
     mission = SOURCE / "config/missions/office.yaml"
     script = (f"import cairn; run = cairn.run({str(mission)!r}, out='out', set={{'at_most_s': 5}});"

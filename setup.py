@@ -20,9 +20,9 @@ class WithCairn(build_py):
 
     def run(self) -> None:
         super().run()
-        build = pathlib.Path(os.environ.get("CAIRN_BUILD", HERE.parent / "build/python_package"))
+        build = pathlib.Path(os.environ.get("CAIRN_BUILD", HERE / "build/python_package"))
         if not (build / "CMakeCache.txt").exists():
-            subprocess.run(["cmake", "-S", HERE.parent, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+            subprocess.run(["cmake", "-S", HERE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                             f"-DCAIRN_PYTHON={sys.executable}", "-DCAIRN_PYTHON_PACKAGE=ON",
                             "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12"], check=True)
         if not os.environ.get("CAIRN_BUILD_AS_IS"):
