@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "framework/config/fields.hpp"
+#include "framework/files/robot_cameras.hpp"
 #include "maps/geometry/contour.hpp"
 
 namespace cairn {
@@ -128,6 +129,7 @@ struct RobotConfig {
   std::vector<SonarConfig> sonars;
   FiringConfig firing;
   std::vector<LaserConfig> lasers;
+  std::vector<robot_config::CameraConfig> cameras;
   OdometryConfig odometry;
   CompassConfig compass;
   RangesConfig ranges;
@@ -141,6 +143,7 @@ struct RobotConfig {
     fields.list("sonars", &RobotConfig::sonars, "its sonars");
     fields.group("firing", &RobotConfig::firing, "when the sonars fire");
     fields.list("lasers", &RobotConfig::lasers, "its laser scanners; their beams are numbered after the sonars");
+    fields.list("cameras", &RobotConfig::cameras, "its cameras; pictures are made only when the mission needs them");
     fields.group("odometry", &RobotConfig::odometry, "standard deviations of its dead reckoning");
     fields.group("compass", &RobotConfig::compass, "standard deviations of its compass; left out, the robot has none");
     fields.group("ranges", &RobotConfig::ranges, "standard deviations of its sonars' ranges");
@@ -242,6 +245,8 @@ RobotModel load_robot(const std::filesystem::path& file) {
   set_sonars(robot, config, root);
   set_firing(robot, config.firing);
   set_lasers(robot, config, root);
+  for (std::size_t i = 0; i < config.cameras.size(); ++i)
+    robot.cameras.push_back(robot_config::camera_of(config.cameras[i], root.find("cameras")->items[i]));
   robot.odometry_error = config.odometry;
   robot.has_compass = root.find("compass") != nullptr;
   robot.compass_error = config.compass;

@@ -6,6 +6,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/files/world_moving.hpp"
+#include "framework/files/world_tags.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
@@ -49,6 +50,7 @@ struct WorldConfig {
   std::vector<ObjectConfig> objects;
   std::vector<DoorConfig> doors;
   std::vector<MoverConfig> movers;
+  std::vector<TagConfig> tags;
   static void describe(Fields<WorldConfig>& fields) {
     fields.points("bounds_m", &WorldConfig::bounds_m, "m", "lower left and upper right corner of the world").required =
         true;
@@ -56,6 +58,7 @@ struct WorldConfig {
     fields.list("objects", &WorldConfig::objects, "landmarks and obstacles");
     fields.list("doors", &WorldConfig::doors, "sliding leaves; one never closes on the robot");
     fields.list("movers", &WorldConfig::movers, "people and carts; they mind nothing but the robot");
+    fields.list("tags", &WorldConfig::tags, "printed markers, which cameras see");
   }
 };
 
@@ -153,6 +156,8 @@ World load_world(const std::filesystem::path& file, const std::vector<LandmarkSh
     world.doors.push_back(door_of(world, config.doors[i], root.find("doors")->items[i]));
   for (std::size_t i = 0; i < config.movers.size(); ++i)
     world.movers.push_back(mover_of(world, config.movers[i], root.find("movers")->items[i]));
+  for (std::size_t i = 0; i < config.tags.size(); ++i)
+    world.tags.push_back(tag_of(world, config.tags[i], root.find("tags")->items[i]));
   check_names(root);
   return world;
 }

@@ -10,7 +10,7 @@ void register_module(cairn::Registrar& registrar) {
       "simulated_robot", "a robot that drives and measures in a simulated world",
       [](const cairn::SimulatedRobotConfig& config, const cairn::SensorContext& context) {
         return std::make_unique<cairn::SimulatedRobot>(config, context.robot, context.world, context.T_map_start,
-                                                       context.seed, context.begin_s);
+                                                       context.seed, context.begin_s, context.wants_images);
       });
 }
 

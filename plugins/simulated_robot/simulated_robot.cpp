@@ -33,7 +33,7 @@ std::string start_fault(const Pose2& T_map_start, const RobotModel& robot, const
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotModel& robot, const World* world,
-                               const Pose2& T_map_start, std::uint64_t seed, double begin_s)
+                               const Pose2& T_map_start, std::uint64_t seed, double begin_s, bool wants_images)
     : period_s_(period_of(config, robot)),
       scene_(checked(world)),
       traffic_(*world, robot, T_map_start),
@@ -47,6 +47,7 @@ SimulatedRobot::SimulatedRobot(const SimulatedRobotConfig& config, const RobotMo
       witness_(robot),
       T_map_robot_(T_map_start) {
   if (config.compass && robot.has_compass) compass_.emplace(in_truth(robot, config.truth).compass_error, seed);
+  if (wants_images) cameras_.emplace(robot, *world, scene_, seed);
   catch_up(begin_s);
   start_fault_ = start_fault(T_map_start, robot, *world, traffic_);
   traffic_.show(traffic_.places(), scene_);
@@ -84,6 +85,7 @@ SensorStep SimulatedRobot::next(const Budget&) {
   scanned_.clear();
   lasers_.scan(T_map_robot_, time_s() - period_s_, time_s(), scanned_);
   if (!faults_.is_silent()) seen.ranges.insert(seen.ranges.end(), scanned_.begin(), scanned_.end());
+  if (cameras_) cameras_->take(T_map_robot_, time_s() - period_s_, time_s(), seen.images);
   return step;
 }
 

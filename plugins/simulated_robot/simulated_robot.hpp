@@ -14,6 +14,7 @@
 #include "framework/contracts/sensor.hpp"
 #include "framework/contracts/world.hpp"
 #include "plugins/simulated_robot/battery.hpp"
+#include "plugins/simulated_robot/camera/cameras.hpp"
 #include "plugins/simulated_robot/config.hpp"
 #include "plugins/simulated_robot/faults.hpp"
 #include "plugins/simulated_robot/instruments.hpp"
@@ -31,10 +32,11 @@ class SimulatedRobot final : public Sensor, public Drive, public GroundTruthSour
  public:
   // begin_s: the clock to begin with. Doors, movers and faults are then as if the robot had stood at its start so long;
   // the battery is full, and what put the robot elsewhere has done so.
+  // wants_images: its cameras take pictures; without it they cost nothing.
   // Throws std::invalid_argument without a world, or when the firing order names no sonar of the robot; ConfigError
   // when a fault cannot be.
   SimulatedRobot(const SimulatedRobotConfig& config, const RobotModel& robot, const World* world,
-                 const Pose2& T_map_start, std::uint64_t seed, double begin_s = 0.0);
+                 const Pose2& T_map_start, std::uint64_t seed, double begin_s = 0.0, bool wants_images = false);
   SimulatedRobot(const SimulatedRobot&) = delete;  // its parts refer to its scene
   SimulatedRobot& operator=(const SimulatedRobot&) = delete;
 
@@ -68,6 +70,7 @@ class SimulatedRobot final : public Sensor, public Drive, public GroundTruthSour
   std::optional<Compass> compass_;
   SonarRing sonars_;
   LaserScanners lasers_;
+  std::optional<Cameras> cameras_;
   Faults faults_;
   Witness witness_;
   std::string start_fault_;

@@ -123,6 +123,58 @@ TEST(RobotFile, ALaserNeedsOnlyItsPlace) {
   EXPECT_EQ(laser.dropped_ratio, 0.0);
 }
 
+TEST(RobotFile, ThePioneer3DxWithACameraIsThePioneer3DxBesides) {
+  const RobotModel plain = load_robot(kRobots / "pioneer3dx.yaml");
+  const RobotModel robot = load_robot(kRobots / "pioneer3dx_camera.yaml");
+  EXPECT_EQ(robot.sonars.size(), plain.sonars.size());
+  EXPECT_EQ(robot.radius_m, plain.radius_m);
+  EXPECT_EQ(robot.odometry_error.heading_rad_per_m, plain.odometry_error.heading_rad_per_m);
+  EXPECT_TRUE(plain.cameras.empty());
+  ASSERT_EQ(robot.cameras.size(), 1U);
+  EXPECT_EQ(robot.cameras[0].T_robot_camera, (Pose2{0.1, 0.0, 0.0}));
+  EXPECT_EQ(robot.cameras[0].height_m, 0.3);
+}
+
+TEST(RobotFile, ACameraNeedsOnlyItsPlaceAndItsFocalLength) {
+  const RobotModel robot = load_text(
+      "name: a\nradius_m: 1\ncameras:\n"
+      "  - {x_m: 0.1, y_m: -0.2, height_m: 0.5, focal_px: [300, 310], width_px: 320, height_px: 240}\n"
+      "  - {x_m: 0, y_m: 0, height_m: 1, focal_px: [1, 1], angle_deg: 270, tilt_deg: -10, centre_px: [300, 200],\n"
+      "     distortion: [-0.2, 0.05], rate_hz: 30}\n");
+  ASSERT_EQ(robot.cameras.size(), 2U);
+  const CameraModel& plain = robot.cameras[0];
+  EXPECT_EQ(plain.T_robot_camera, (Pose2{0.1, -0.2, 0.0}));
+  EXPECT_EQ(plain.focal_x_px, 300.0);
+  EXPECT_EQ(plain.focal_y_px, 310.0);
+  EXPECT_EQ(plain.centre_x_px, 159.5) << "the middle of its picture, whatever that of another size is";
+  EXPECT_EQ(plain.centre_y_px, 119.5);
+  EXPECT_EQ(plain.tilt_rad, 0.0);
+  EXPECT_EQ(plain.distortion, (std::array<double, 5>{}));
+  const CameraModel& other = robot.cameras[1];
+  EXPECT_NEAR(other.T_robot_camera.theta_rad, radians(-90.0), 1e-12);
+  EXPECT_NEAR(other.tilt_rad, radians(-10.0), 1e-12);
+  EXPECT_EQ(other.centre_x_px, 300.0);
+  EXPECT_EQ(other.distortion, (std::array<double, 5>{-0.2, 0.05, 0.0, 0.0, 0.0}));
+  EXPECT_EQ(other.rate_hz, 30.0);
+}
+
+TEST(RobotFile, SaysWhatIsWrongWithACamera) {
+  const auto camera_error = [](const std::string& more) {
+    return error_in("name: a\nradius_m: 1\ncameras:\n  - {x_m: 0, y_m: 0, height_m: 1, " + more + "}\n");
+  };
+  EXPECT_EQ(camera_error("focal_px: [500]"), "r.yaml:4:45: focal_px must be two numbers [x, y], found 1");
+  EXPECT_EQ(camera_error("focal_px: [1, 1], centre_px: [1, 2, 3]"),
+            "r.yaml:4:64: centre_px must be two numbers [x, y], found 3");
+  EXPECT_EQ(camera_error("focal_px: [1, 1], width_px: 100, height_px: 50, centre_px: [99, 50]"),
+            "r.yaml:4:94: centre_px must lie in the picture of 100 x 50 pixels, found [99, 50]");
+  EXPECT_EQ(camera_error("focal_px: [1, 1], distortion: [0, 0, 0, 0, 0, 0]"),
+            "r.yaml:4:65: distortion has 5 numbers at most (k1, k2, p1, p2, k3), found 6");
+  EXPECT_THAT(camera_error("rate_hz: 5"), testing::StartsWith("r.yaml:4:5: cameras lacks the key \"focal_px\""));
+  EXPECT_THAT(camera_error("focal: [1, 1]"), testing::HasSubstr("did you mean \"focal_px\"?"));
+  EXPECT_THAT(camera_error("focal_px: [0, 1]"),
+              testing::StartsWith("r.yaml:4:46: each item of focal_px must be a number"));
+}
+
 TEST(RobotFile, SaysWhatIsWrongWithALaser) {
   const std::string begin = "name: a\nradius_m: 1\nlasers:\n  - ";
   EXPECT_EQ(error_in(begin + "{x_m: 0, y_m: 0, min_m: 4, max_m: 4}\n"),

@@ -132,6 +132,36 @@ TEST(WorldFile, ObjectsStandWhereTheySay) {
   EXPECT_EQ(world.objects[2].T_map_object, (Pose2{2, 3, radians(90.0)}));
 }
 
+TEST(WorldFile, TagsHangWhereTheySay) {
+  const World world = load_text(kBounds +
+                                "tags:\n"
+                                "  - {id: 7, at_m: [3, 0], facing_deg: 90}\n"
+                                "  - {id: 2114, family: standard41h12, at_m: [6, 2], facing_deg: 180, height_m: 1.2, "
+                                "size_m: 0.25}\n");
+  ASSERT_EQ(world.tags.size(), 2U);
+  EXPECT_EQ(world.tags[0].marker, (MarkerId{MarkerFamily::tag36h11, 7}));
+  EXPECT_EQ(world.tags[0].T_map_tag, (Pose2{3.0, 0.0, radians(90.0)}));
+  EXPECT_EQ(world.tags[0].height_m, WorldTag{}.height_m);
+  EXPECT_EQ(world.tags[0].size_m, WorldTag{}.size_m);
+  EXPECT_EQ(world.tags[1].marker, (MarkerId{MarkerFamily::tagStandard41h12, 2114}));
+  EXPECT_EQ(world.tags[1].height_m, 1.2);
+  EXPECT_EQ(world.tags[1].size_m, 0.25);
+}
+
+TEST(WorldFile, SaysWhatIsWrongWithATag) {
+  const auto tag_error = [](const std::string& tag) { return error_in(kBounds + "tags: [" + tag + "]\n"); };
+  EXPECT_EQ(tag_error("{id: 1, at_m: [7, 0], facing_deg: 0}"),
+            "w.yaml:2:22: at_m [7, 0] lies outside bounds_m [0, 0] to [6, 5]");
+  EXPECT_EQ(tag_error("{id: 587, at_m: [1, 0], facing_deg: 0}"),
+            "w.yaml:2:13: family 36h11 has the ids 0 to 586, found 587");
+  EXPECT_EQ(tag_error("{id: 35, family: 25h9, at_m: [1, 0], facing_deg: 0}"),
+            "w.yaml:2:13: family 25h9 has the ids 0 to 34, found 35");
+  EXPECT_EQ(tag_error("{id: 1, at_m: [1, 0], facing_deg: 0, height_m: 0.05}"),
+            "w.yaml:2:8: the tag's lower edge is below the floor: height_m is of its centre");
+  EXPECT_THAT(tag_error("{id: 1, family: 16h5, at_m: [1, 0], facing_deg: 0}"), testing::HasSubstr("36h11"));
+  EXPECT_THAT(tag_error("{id: 1, at_m: [1, 0]}"), testing::HasSubstr("lacks the key \"facing_deg\""));
+}
+
 TEST(WorldFile, SaysWhatIsWrongWithTheBounds) {
   EXPECT_EQ(error_in("walls: []\n"),
             "w.yaml:1:1: world lacks the key \"bounds_m\": lower left and upper right corner of the world");
@@ -141,7 +171,7 @@ TEST(WorldFile, SaysWhatIsWrongWithTheBounds) {
   EXPECT_EQ(
       error_in(kBounds + "wals: []\n"),
       "w.yaml:2:1: unknown key \"wals\" in world (did you mean \"walls\"?); known: bounds_m, walls, objects, doors, "
-      "movers");
+      "movers, tags");
 }
 
 TEST(WorldFile, SaysWhatIsWrongWithAWall) {

@@ -1,0 +1,46 @@
+#include "plugins/simulated_robot/camera/tag_pattern.hpp"
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagStandard41h12.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace cairn {
+namespace {
+
+using Family = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
+
+Family family_of(MarkerFamily family) {
+  switch (family) {
+    case MarkerFamily::tag25h9:
+      return {tag25h9_create(), tag25h9_destroy};
+    case MarkerFamily::tagStandard41h12:
+      return {tagStandard41h12_create(), tagStandard41h12_destroy};
+    case MarkerFamily::tag36h11:
+      break;
+  }
+  return {tag36h11_create(), tag36h11_destroy};
+}
+
+}  // namespace
+
+TagPattern pattern_of(const MarkerId& marker) {
+  const Family family = family_of(marker.family);
+  if (marker.number < 0 || marker.number >= static_cast<int>(family->ncodes))
+    throw std::invalid_argument("marker family " + std::string(name_of(marker.family)) + " has no number " +
+                                std::to_string(marker.number));
+  const std::unique_ptr<image_u8_t, void (*)(image_u8_t*)> image(apriltag_to_image(family.get(), marker.number),
+                                                                 image_u8_destroy);
+  TagPattern pattern{family->total_width, family->width_at_border, {}};
+  pattern.white.reserve(static_cast<std::size_t>(pattern.cells) * static_cast<std::size_t>(pattern.cells));
+  for (int row = 0; row < pattern.cells; ++row)
+    for (int column = 0; column < pattern.cells; ++column)
+      pattern.white.push_back(image->buf[row * image->stride + column] != 0);
+  return pattern;
+}
+
+}  // namespace cairn
