@@ -74,7 +74,7 @@ def main(folder, docs):
     text += f"{len(ended)} homes: {entered} of {rooms} rooms entered, {known / area:.3f} of {area:.0f} m2 known, "
     text += f"{successes} ended with success. "
     if len(ended) < len(rows):
-        text += f"{len(rows) - len(ended)} of the {len(rows)} homes were not run to their end. "
+        text += f"{len(rows) - len(ended)} of the {len(rows)} homes were not run to their end: they still ran when the experiment was stopped, so long runs are likelier among them. "
     text += "[More about homes](exploring.md#homes).\n"
     for row in ended:
         name = f"home_{row['seed']}.png"
