@@ -18,9 +18,12 @@ std::string too_narrow(double radius_m) {
 }  // namespace
 
 std::string sentence_of(const NotEntered& opening) {
+  constexpr double kShut_m = 0.005;  // would be written as 0.00 m
+  char width[32] = "drawn shut in the map";
+  if (opening.width_m >= kShut_m) std::snprintf(width, sizeof width, "%.2f m wide", opening.width_m);
   char text[240];
-  std::snprintf(text, sizeof text, "opening at (%.2f, %.2f), %.2f m wide: %s", opening.at_m.x(), opening.at_m.y(),
-                opening.width_m, opening.why.c_str());
+  std::snprintf(text, sizeof text, "opening at (%.2f, %.2f), %s: %s", opening.at_m.x(), opening.at_m.y(), width,
+                opening.why.c_str());
   return text;
 }
 

@@ -154,6 +154,8 @@ TEST(PassageTasks, TheWayBackLeadsThroughAPassageThatWasPassedTheOtherWayRound) 
 TEST(PassageTasks, ASentenceNamesThePlaceTheWidthAndTheReason) {
   EXPECT_EQ(sentence_of(NotEntered{{2.4, 4.0}, 0.4, true, "too narrow for 0.44 m"}),
             "opening at (2.40, 4.00), 0.40 m wide: too narrow for 0.44 m");
+  EXPECT_EQ(sentence_of(NotEntered{{2.4, 4.0}, 0.0, true, "too narrow for 0.44 m"}),
+            "opening at (2.40, 4.00), drawn shut in the map: too narrow for 0.44 m");
 }
 
 }  // namespace
