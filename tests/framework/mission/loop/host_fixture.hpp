@@ -95,9 +95,9 @@ class HostFixture : public testing::Test {
   }
   MapSaving& saving() {
     if (!saving_)
-      saving_ = std::make_unique<MapSaving>(mission_, MapSaving::Options{folder_, autosaves_, is_resumed_, time_},
-                                            planning(), world_, publisher_,
-                                            [this](ClusterTree clusters) { return content(std::move(clusters)); });
+      saving_ = std::make_unique<MapSaving>(
+          mission_, MapSaving::Options{folder_, autosaves_, is_resumed_, time_}, planning(), world_, publisher_,
+          [this](ClusterTree clusters) { return content(std::move(clusters)); }, [] { return KeptSubmaps{}; });
     return *saving_;
   }
   HostParts host() {

@@ -31,10 +31,12 @@ std::string text_of(const Pose2& pose) {
 
 // Does not compile when an observation holds anything else.
 std::string text_of(const Observation& observation) {
-  const auto& [stamp_s, recorded_s, T_odom_robot, compass_rad, ranges, bumped, battery_ratio] = observation;
+  const auto& [stamp_s, recorded_s, T_odom_robot, compass_rad, ranges, bumped, battery_ratio, stopped_by, images,
+               markers] = observation;
   std::ostringstream out;
   out << std::hexfloat << stamp_s << ' ' << recorded_s.value_or(9.0) << ' ' << text_of(T_odom_robot)
-      << compass_rad.value_or(9.0) << ' ' << bumped << ' ' << battery_ratio.value_or(9.0);
+      << compass_rad.value_or(9.0) << ' ' << bumped << ' ' << battery_ratio.value_or(9.0) << ' ' << stopped_by << ' '
+      << images.size() << ' ' << markers.size();
   for (const RangeReading& reading : ranges) out << ' ' << reading.range_m;
   return out.str();
 }
