@@ -126,7 +126,7 @@ std::string RosLink::nobody_there() const {
     if (endpoint.topic == config_.odometry) {
       has_topic = true;
       offered.insert(endpoint.topic + " as " + endpoint.type);
-    } else if (endpoint.topic.starts_with('/')) {
+    } else if (endpoint.topic.starts_with('/') && endpoint.topic != config_.command.topic) {  // that is the guard's
       offered.insert(endpoint.topic);
     }
   }
