@@ -165,8 +165,9 @@ float Picture::tag_light(const HungTag& hung, std::size_t pixel) const {
   const Eigen::Vector2d focal_px(camera_.focal_x_px, camera_.focal_y_px);
   float sum = 0.0F;
   for (int part = 0; part < kSubpixels * kSubpixels; ++part) {
-    const Eigen::Vector2d offset_px((part % kSubpixels + 0.5) / kSubpixels - 0.5,
-                                    (part / kSubpixels + 0.5) / kSubpixels - 0.5);
+    const int row = part / kSubpixels;
+    const int column = part % kSubpixels;
+    const Eigen::Vector2d offset_px((column + 0.5) / kSubpixels - 0.5, (row + 0.5) / kSubpixels - 0.5);
     const Eigen::Vector2d on_plane = on_plane_[pixel].cast<double>() + offset_px.cwiseQuotient(focal_px);
     const std::optional<HungTag::Spot> spot = hung.spot_on(direction_of(camera_, on_plane));
     const bool is_hidden = !spot || spot->distance_m > wall_m_[ray_at(spot->bearing_rad)] + kPaper_m;
