@@ -1,7 +1,7 @@
 """Builds Cairn and puts it whole into the package: the module, and under `prefix` the program, libraries and modules.
 
 CAIRN_BUILD: a build folder that is configured already, for who has one; otherwise build/python_package is made.
-CAIRN_BUILD_AS_IS: not empty: what that folder holds is taken, nothing is built.
+CAIRN_BUILD_AS_IS: 1: what that folder holds is taken, nothing is built.
 """
 import os
 import pathlib
@@ -21,11 +21,14 @@ class WithCairn(build_py):
     def run(self) -> None:
         super().run()
         build = pathlib.Path(os.environ.get("CAIRN_BUILD", HERE / "build/python_package"))
+        as_is = os.environ.get("CAIRN_BUILD_AS_IS", "0") not in ("", "0")
+        if as_is and not (build / "CMakeCache.txt").exists():
+            sys.exit(f"CAIRN_BUILD: {build} is no build folder")
         if not (build / "CMakeCache.txt").exists():
             subprocess.run(["cmake", "-S", HERE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                             f"-DCAIRN_PYTHON={sys.executable}", "-DCAIRN_PYTHON_PACKAGE=ON",
                             "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12"], check=True)
-        if not os.environ.get("CAIRN_BUILD_AS_IS"):
+        if not as_is:
             subprocess.run(["cmake", "--build", build], check=True)
         package = pathlib.Path(self.build_lib) / "cairn"
         shutil.rmtree(package / "prefix", ignore_errors=True)
