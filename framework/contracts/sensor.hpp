@@ -36,8 +36,8 @@ class Sensor {
   [[nodiscard]] virtual std::optional<Pose2> start() const { return std::nullopt; }
   // Where it really is, for reports (framework/contracts/ground_truth.hpp); null when the source never knows.
   [[nodiscard]] virtual const GroundTruthSource* truth() const { return nullptr; }
-  // Where it shows the mission to people (framework/contracts/mission_display.hpp); null when it cannot. Part of the
-  // sensor.
+  // Where it shows the mission to people (framework/contracts/optional/mission_display.hpp); null when it cannot. Part
+  // of the sensor.
   [[nodiscard]] virtual MissionDisplay* display() { return nullptr; }
 };
 

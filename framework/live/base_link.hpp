@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "framework/contracts/budget.hpp"
-#include "framework/contracts/connection_report.hpp"
 #include "framework/contracts/observation.hpp"
+#include "framework/contracts/optional/connection_report.hpp"
 
 namespace cairn {
 class MissionDisplay;
@@ -36,7 +36,7 @@ class BaseLink {
   [[nodiscard]] virtual std::optional<Pose2> start() { return std::nullopt; }
   // Where the mission is shown; null: nowhere. A part of the link; by the same thread.
   [[nodiscard]] virtual MissionDisplay* display() { return nullptr; }
-  // What it is connected to, part by part (framework/contracts/connection_report.hpp); by the same thread.
+  // What it is connected to, part by part (framework/contracts/optional/connection_report.hpp); by the same thread.
   [[nodiscard]] virtual std::vector<ConnectionPart> parts() { return {}; }
 
   // By the thread that sends, while connected, beside receive(). ---------------------------------------------------

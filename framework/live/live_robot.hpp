@@ -15,12 +15,12 @@
 #include <thread>
 
 #include "framework/config/fields.hpp"
-#include "framework/contracts/command_silence.hpp"
-#include "framework/contracts/connection_report.hpp"
+#include "framework/contracts/optional/command_silence.hpp"
+#include "framework/contracts/optional/connection_report.hpp"
+#include "framework/contracts/optional/stop_report.hpp"
+#include "framework/contracts/optional/wait_report.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
-#include "framework/contracts/stop_report.hpp"
-#include "framework/contracts/wait_report.hpp"
 #include "framework/live/base_link.hpp"
 #include "framework/live/velocity_orders.hpp"
 

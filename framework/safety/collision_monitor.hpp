@@ -13,8 +13,8 @@
 #include <optional>
 #include <span>
 
+#include "framework/contracts/optional/stop_report.hpp"
 #include "framework/contracts/sensor.hpp"
-#include "framework/contracts/stop_report.hpp"
 #include "framework/modules/staged.hpp"
 #include "framework/safety/velocity_limiter.hpp"
 

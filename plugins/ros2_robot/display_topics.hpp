@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/mission_display.hpp"
+#include "framework/contracts/optional/mission_display.hpp"
 #include "plugins/ros2_robot/config.hpp"
 #include "plugins/ros2_robot/dds/endpoints.hpp"
 #include "plugins/ros2_robot/shown_messages.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "framework/contracts/mission_display.hpp"
+#include "framework/contracts/optional/mission_display.hpp"
 #include "plugins/ros2_robot/messages.hpp"
 
 namespace cairn::ros2_robot {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "framework/contracts/localizer.hpp"
-#include "framework/contracts/pose_graph_report.hpp"
+#include "framework/contracts/optional/pose_graph_report.hpp"
 #include "plugins/submap_graph/laser_graph.hpp"
 
 namespace cairn::submap_graph {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/mission_display.hpp"
+#include "framework/contracts/optional/mission_display.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/orders/orders.hpp"
 #include "framework/modules/staged.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/wait_report.hpp"
+#include "framework/contracts/optional/wait_report.hpp"
 #include "framework/mission/clock/mission_clock.hpp"
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"

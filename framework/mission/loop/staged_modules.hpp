@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "framework/contracts/mission_display.hpp"
+#include "framework/contracts/optional/mission_display.hpp"
 #include "framework/mission/modules.hpp"
 #include "framework/modules/staged.hpp"
 

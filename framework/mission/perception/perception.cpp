@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/contracts/pose_graph_report.hpp"
+#include "framework/contracts/optional/pose_graph_report.hpp"
 #include "framework/modules/plausibility.hpp"
 #include "framework/safety/deaf_transducers.hpp"
 

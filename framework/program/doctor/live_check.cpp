@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "framework/contracts/command_silence.hpp"
+#include "framework/contracts/optional/command_silence.hpp"
 #include "framework/live/steady_time.hpp"
 #include "maps/base/text.hpp"
 

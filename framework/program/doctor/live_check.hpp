@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/connection_report.hpp"
+#include "framework/contracts/optional/connection_report.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/sensor.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/contracts/connection_report.hpp"
+#include "framework/contracts/optional/connection_report.hpp"
 
 namespace cairn::ros {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "framework/contracts/connection_report.hpp"
+#include "framework/contracts/optional/connection_report.hpp"
 #include "plugins/common/ros/heard_topics.hpp"
 #include "plugins/ros2_robot/dds/endpoints.hpp"
 

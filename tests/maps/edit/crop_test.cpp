@@ -8,6 +8,7 @@
 namespace cairn {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -102,6 +103,14 @@ TEST(MapCrop, ReportsWhatItForgets) {
               ElementsAre("no mission can resume from a part of its map: its progress is dropped",
                           "1 landmark: where a robot stands at it lies outside and is forgotten",
                           "1 cluster: made anew, the name is lost"));
+}
+
+TEST(MapCrop, SubmapsShowWhatIsCutOffAndGo) {
+  SavedMap map = random_map(1);
+  map.submaps.nodes = {{0, 1.0, {}}};
+  const CroppedMap cropped = crop_map(map, {-1, -1}, {1, 1});
+  EXPECT_TRUE(cropped.map.submaps.empty());
+  EXPECT_THAT(cropped.warnings, Contains("the submaps show what is cut off: they are dropped"));
 }
 
 TEST(MapCrop, NoMissionGoesOnFromAPart) {

@@ -149,6 +149,12 @@ TEST_F(MergedMaps, LandmarksOfOneCategoryNearEachOtherAreOne) {
   EXPECT_THAT(x, ElementsAre(0, 5, 0.3, 5.1, 5));
 }
 
+TEST_F(MergedMaps, SubmapsAreThoseOfTheFirst) {
+  a_.submaps.nodes = {{0, 1.0, {1, 2, 0.5}}};
+  b_.submaps.nodes = {{0, 2.0, {}}};
+  EXPECT_EQ(merged().map.submaps, a_.submaps);
+}
+
 TEST_F(MergedMaps, AJoinedLandmarkKeepsItsPlaceAndGetsTheEvidenceOfBoth) {
   Landmark mine = landmark("square", 0, 0);
   mine.sightings = 3;
