@@ -19,7 +19,8 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("local_bias_ratio", &Config::local_bias_ratio, {0.0, 1.0}, "",
                 "standard deviation of the compass's local bias over the bound that the robot's file gives");
   fields.angle("unstated_bias_deg", &Config::unstated_bias_rad, {0.0, 90.0},
-               "standard deviation of the compass's local bias where the robot's file gives none");
+               "standard deviation of the compass's local bias that a second tracker allows for where the robot's file "
+               "gives none: walls decide which one is right; 0: there is no second tracker");
   fields.number("compass_gate_sigmas", &Config::compass_gate_sigmas, {1.0, 100.0}, "",
                 "compass readings further off than this many standard deviations are refused");
   fields.number("compass_drift_sigmas", &Config::compass_drift_sigmas, {1.0, 100.0}, "",

@@ -17,7 +17,7 @@ struct Config {
   bool use_compass = true;
   double min_compass_noise_rad = radians(0.5);
   double local_bias_ratio = 0.63;
-  double unstated_bias_rad = 0.0;
+  double unstated_bias_rad = radians(5.0);
   double compass_gate_sigmas = 4.0;
   double compass_drift_sigmas = 4.5;
   double compass_jump_sigmas = 4.0;

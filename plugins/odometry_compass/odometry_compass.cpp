@@ -1,263 +1,73 @@
 #include "plugins/odometry_compass/odometry_compass.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace cairn::odometry_compass {
 namespace {
 
-// Further out than any robot gets; squares of what is beyond would drown every covariance.
-constexpr double kFarthest_m = 1e6;
-constexpr double kSmoothness = 6.0;
-constexpr double kCrept = 3.0;           // how much more a slow drift has turned the heading than it shows
-constexpr double kBiasBeforeSlip = 2.0;  // deviation of the bias over that of the heading when they have parted
-// What steel turns a compass by changes less from place to place than a wheel that slips turns the robot.
-constexpr double kFastestBias_radpm = radians(30.0);
-constexpr double kSettled_m = 0.8;  // of way, after which slow compasses have shown their noise
-constexpr double kFarBias = 3.0;    // deviations
-constexpr int kVerdict = 6;         // corrections by walls and landmarks until a suspicion is judged
+// One tracker's walls must speak so much louder than the other's to be believed. A wall that is met just where it is
+// expected counts 6; trackers that are both right differ by some 5 %.
+constexpr double kLouder = 1.15;
+constexpr double kClearly = 12.0;
+constexpr int kMostWins = 5;  // that count
 
-bool is_usable(const Pose2& pose) {
-  return std::abs(pose.x_m) <= kFarthest_m && std::abs(pose.y_m) <= kFarthest_m && std::isfinite(pose.theta_rad);
+CompassBias stated_bias(const Config& config, const RobotModel& robot) {
+  const double bound_rad = robot.compass_error.local_bias_rad;
+  return {config.local_bias_ratio * bound_rad, bound_rad};
 }
 
-// A covariance of a position: symmetric, positive definite.
-bool is_usable(const Eigen::Matrix2d& c) {
-  return c.allFinite() && std::abs(c(0, 1) - c(1, 0)) <= 1e-9 * c.cwiseAbs().maxCoeff() && c(0, 0) > 0.0 &&
-         c.determinant() > 0.0;
-}
-
-// Of a position and a heading.
-bool is_usable(const Eigen::Matrix3d& c) {
-  return (c - c.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * c.cwiseAbs().maxCoeff() &&
-         c.llt().info() == Eigen::Success;
-}
-
-MotionNoise motion_noise_of(const Config& config, const RobotModel& robot) {
-  MotionNoise noise;
-  noise.along_ratio = std::max(config.min_distance_ratio, robot.odometry_error.distance_ratio);
-  noise.across_ratio = config.min_distance_ratio;
-  noise.heading_rad_per_m = std::max(config.min_heading_rad_per_m, robot.odometry_error.heading_rad_per_m);
-  noise.turn_as_distance_m_per_rad = config.turn_as_distance_m_per_rad;
-  const bool is_stated = robot.compass_error.local_bias_rad > 0.0;
-  noise.bias_rad = is_stated ? config.local_bias_ratio * robot.compass_error.local_bias_rad : config.unstated_bias_rad;
-  // The bias is a smooth function of the place, not of the path: over short distances it changes less than a
-  // Gauss-Markov process of the same scale does, and it comes back where the robot comes back.
-  noise.bias_scale_m = kSmoothness * std::max(0.01, robot.compass_error.local_bias_scale_m);
-  return noise;
-}
-
-WallFinderRules wall_rules_of(const MotionNoise& noise, double compass_noise_rad) {
-  WallFinderRules rules;
-  rules.heading_noise_rad_per_m = noise.heading_rad_per_m;
-  rules.compass_noise_rad = compass_noise_rad;
-  return rules;
+bool is_louder(const PoseTracker& one, const PoseTracker& other, double clearly) {
+  return one.wall_evidence() > kLouder * other.wall_evidence() + clearly;
 }
 
 }  // namespace
 
 OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, const Pose2& T_map_start,
                                  std::span<const LandmarkShape> shapes, const StartUncertainty& start)
-    : config_(config),
-      motion_noise_(motion_noise_of(config, robot)),
-      use_compass_(config.use_compass && robot.has_compass),
-      compass_noise_(std::max(config.min_compass_noise_rad, robot.compass_error.noise_rad)),
-      stated_bias_rad_(motion_noise_.bias_rad),
-      stated_max_bias_rad_(std::max(robot.compass_error.local_bias_rad,
-                                    robot.compass_error.local_bias_rad > 0.0 ? 0.0 : kFarBias * stated_bias_rad_)),
-      max_bias_rad_(stated_max_bias_rad_),
-      about_half_track_m_(robot.kinematics == Kinematics::differential ? robot.radius_m : 0.0),
-      filter_(T_map_start, {std::max(config.start_position_m, start.position_m),
-                            std::max(config.start_heading_rad, start.heading_rad),
-                            robot.odometry_error.distance_bias_ratio, motion_noise_.bias_rad}),
-      wall_finder_(wall_rules_of(motion_noise_, use_compass_ ? compass_noise_rad() : 0.0)),
-      landmark_sightings_({shapes.begin(), shapes.end()}) {}
-
-PoseEstimate OdometryCompass::update(const Observation& observation, const KnownMap& known) {
-  return update_by(observation, see_again(observation, known));
+    : use_landmarks_(config.use_landmarks),
+      chosen_bias_(stated_bias(config, robot)),
+      other_bias_{config.unstated_bias_rad, CompassBias::kFar * config.unstated_bias_rad},
+      chosen_(config, robot, chosen_bias_, T_map_start, start),
+      landmark_sightings_({shapes.begin(), shapes.end()}) {
+  const bool may_be_biased = config.use_compass && robot.has_compass && config.use_walls &&
+                             chosen_bias_.deviation_rad == 0.0 && other_bias_.deviation_rad > 0.0;
+  if (may_be_biased) other_.emplace(config, robot, other_bias_, T_map_start, start);
 }
 
-// Of the first observation nothing says where the odometry begins.
-std::span<const LandmarkSighting> OdometryCompass::see_again(const Observation& observation, const KnownMap& known) {
-  if (!T_odom_robot_ || !config_.use_landmarks) return {};
-  return landmark_sightings_.look(observation, filter_.estimate(), *T_odom_robot_, known);
+PoseEstimate OdometryCompass::update(const Observation& observation, const KnownMap& known) {
+  std::span<const LandmarkSighting> sightings;
+  // Of the first observation nothing says where the odometry begins.
+  if (use_landmarks_ && chosen_.T_odom_robot())
+    sightings = landmark_sightings_.look(observation, chosen_.estimate(), *chosen_.T_odom_robot(), known);
+  return update_by(observation, sightings);
 }
 
 PoseEstimate OdometryCompass::update_by(const Observation& observation, std::span<const LandmarkSighting> sightings) {
-  follow_odometry(observation.T_odom_robot);
-  if (use_compass_ && observation.compass_rad) follow_compass(*observation.compass_rad, observation.stamp_s);
-  int used = config_.use_walls ? follow_walls(observation) : 0;
-  int refused = 0;
-  for (const LandmarkSighting& sighting : sightings) ++(follow_landmark(sighting) ? used : refused);
-  witnesses_ += used;
-  judge_suspect();
-  PoseEstimate estimate = filter_.estimate();
-  estimate.sightings_used = used;
-  estimate.sightings_refused = refused;
+  PoseEstimate estimate = chosen_.update(observation, sightings);
+  if (!other_) return estimate;
+  // Landmarks stand where the chosen one has drawn them: they are no witness.
+  (void)other_->update(observation, {});
+  if (chosen_.starts_biased() || is_louder(*other_, chosen_, kClearly * (1 + wins_))) {
+    std::swap(chosen_, *other_);
+    std::swap(chosen_bias_, other_bias_);
+    wins_ = 0;
+    begin_again();
+    const int refused = estimate.sightings_used + estimate.sightings_refused;
+    estimate = chosen_.estimate();
+    estimate.sightings_refused = refused;
+  } else if (is_louder(chosen_, *other_, kClearly)) {
+    wins_ = std::min(wins_ + 1, kMostWins);
+    begin_again();
+  }
   return estimate;
 }
 
-void OdometryCompass::follow_odometry(const Pose2& T_odom_robot) {
-  if (!is_usable(T_odom_robot)) return;
-  if (T_odom_robot_) {
-    const Pose2 step = inverse(*T_odom_robot_) * T_odom_robot;
-    filter_.predict(step, motion_noise_);
-    turned_rad_ += step.theta_rad;
-    rolled_m_ += step.position().norm() + std::abs(step.theta_rad) * about_half_track_m_;
-    last_step_ = step;
-  }
-  T_odom_robot_ = T_odom_robot;
-}
-
-void OdometryCompass::follow_compass(double compass_rad, double stamp_s) {
-  if (!std::isfinite(compass_rad)) return;
-  if (compass_rad_) compass_noise_.add(wrap_angle(wrap_angle(compass_rad - *compass_rad_) - turned_rad_));
-  jumped_ = jumped_ || has_jumped(compass_rad);
-  drift_rolled_m_ = (1.0 - CompassDrift::kFastShare) * drift_rolled_m_ + rolled_m_;
-  compass_rad_ = compass_rad;
-  rolled_in_all_m_ += rolled_m_;
-  turned_rad_ = 0.0;
-  const double last_rolled_m = std::exchange(rolled_m_, 0.0);
-  const double gate = config_.compass_gate_sigmas;
-  const auto [off_rad, sigma_rad] = filter_.compare_heading(compass_rad, compass_noise_rad());
-  const double off_sigmas = off_rad / sigma_rad;
-  if (std::abs(off_sigmas) <= gate) {
-    jumped_ = false;
-    refused_since_s_.reset();
-  } else if (!refused_since_s_) {
-    refused_since_s_ = stamp_s;
-  }
-  const bool persists = refused_since_s_ && stamp_s - *refused_since_s_ >= config_.compass_refused_at_most_s;
-  if (jumped_ && !persists) return;
-  drift_.add(std::clamp(off_sigmas, -gate, gate));
-  const double doubted_rad = std::max(std::abs(off_rad), std::abs(drift_.fast_sigmas()) * sigma_rad);
-  const bool parts = !jumped_ && drift_.is_fast(config_.compass_drift_sigmas) && could_slip(doubted_rad);
-  const bool noise_is_known = compass_noise_.is_settled() || rolled_in_all_m_ > kSettled_m;
-  const bool is_sudden = doubted_rad > kFastestBias_radpm * drift_rolled_m_ ||
-                         (std::abs(off_sigmas) > gate && std::abs(off_rad) > kFastestBias_radpm * last_rolled_m);
-  const bool slips = parts && noise_is_known && is_sudden;
-  const double before_rad = filter_.estimate().T_map_robot.theta_rad;
-  if (slips || persists) {
-    filter_.doubt_heading(doubted_rad);
-    drift_.restart();
-    refused_since_s_.reset();
-  } else if (parts && has_witness()) {
-    suspect_bias(doubted_rad);
-  } else if (!jumped_ && has_witness() && drift_.is_slow(config_.compass_drift_sigmas)) {
-    suspect_bias(kCrept * std::abs(drift_.slow_sigmas()) * sigma_rad);
-  }
-  (void)filter_.correct_heading(compass_rad, compass_noise_rad(), gate);
-  if (slips) follow_slip(wrap_angle(filter_.estimate().T_map_robot.theta_rad - before_rad));
-  if (config_.bound_bias) filter_.bound_bias(max_bias_rad_);
-}
-
-// The compass and the heading have parted, and one of them is wrong: the compass most likely, as something of steel is
-// met more often than a wheel slips. Both are widened, so that the next walls and landmarks decide.
-void OdometryCompass::suspect_bias(double off_rad) {
-  filter_.doubt_heading(off_rad);
-  filter_.doubt_bias(kBiasBeforeSlip * off_rad);
-  if (about_half_track_m_ > 0.0) filter_.slide(0.0, std::min(2.0 * off_rad * about_half_track_m_, drift_rolled_m_));
-  motion_noise_.bias_rad = std::hypot(motion_noise_.bias_rad, kBiasBeforeSlip * off_rad);
-  max_bias_rad_ = std::max(max_bias_rad_, kFarBias * motion_noise_.bias_rad);
-  wall_finder_.rate_compass(0.0);
-  suspect_ = Suspect{off_rad, witnesses_};
-  drift_.restart();
-  refused_since_s_.reset();
-}
-
-// After some more walls and landmarks the bias is known. Where there is next to none, a wheel had slipped, and the
-// compass is what its file says.
-void OdometryCompass::judge_suspect() {
-  if (!suspect_ || witnesses_ < suspect_->witnesses + kVerdict) return;
-  if (std::abs(filter_.bias_rad()) < 0.5 * suspect_->off_rad) {
-    motion_noise_.bias_rad = stated_bias_rad_;
-    max_bias_rad_ = std::max(stated_max_bias_rad_, std::abs(filter_.bias_rad()));
-    wall_finder_.rate_compass(compass_noise_rad());
-  }
-  suspect_.reset();
-}
-
-// The compass itself has turned, and it and the odometry have parted by more than a wheel that slips could make them.
-bool OdometryCompass::has_jumped(double compass_rad) const {
-  if (!compass_rad_) return false;
-  const double noise_rad = config_.compass_jump_sigmas * std::numbers::sqrt2 * compass_noise_rad();
-  const double slip_rad = about_half_track_m_ > 0.0 ? rolled_m_ / (2.0 * about_half_track_m_) : 0.0;
-  const double turned_rad = wrap_angle(compass_rad - *compass_rad_);
-  return std::abs(turned_rad) > noise_rad && std::abs(wrap_angle(turned_rad - turned_rad_)) > noise_rad + slip_rad;
-}
-
-// Whether the wheels have rolled far enough for half of it. Nobody knows of a car's.
-bool OdometryCompass::could_slip(double turned_rad) const {
-  return about_half_track_m_ <= 0.0 ? drift_rolled_m_ > 0.0 : drift_rolled_m_ >= turned_rad * about_half_track_m_;
-}
-
-// A wheel that slips turns the robot, and the robot has gone less far: where only one of the wheels, by the distance
-// that it turned, can have done so, that is known, about.
-void OdometryCompass::follow_slip(double turned_rad) {
-  if (about_half_track_m_ <= 0.0) return;
-  const double lost_m = std::min(std::abs(turned_rad) * about_half_track_m_, 0.5 * drift_rolled_m_);
-  const double across_m = last_step_.theta_rad * about_half_track_m_;
-  const double left_m = last_step_.x_m - across_m;
-  const double right_m = last_step_.x_m + across_m;
-  const bool left_may = left_m * turned_rad > 0.0;
-  const bool right_may = right_m * turned_rad < 0.0;
-  const double along_m = left_may == right_may ? 0.0 : std::copysign(lost_m, left_may ? -left_m : -right_m);
-  // The pieces of one slip err the same way, so that each counts for more than its own error.
-  filter_.slide(along_m, along_m == 0.0 ? 2.0 * lost_m : lost_m);
-}
-
-int OdometryCompass::follow_walls(const Observation& observation) {
-  if (!is_usable(observation.T_odom_robot)) return 0;
-  wall_finder_.take(observation);
-  if (!wall_finder_.is_due()) return 0;
-  int used = 0;
-  std::array<ExpectedWall, PoseFilter::kMaxWalls> expected;
-  const std::span<ExpectedWall> all(expected.data(), static_cast<std::size_t>(filter_.walls()));
-  for (int wall = 0; wall < filter_.walls(); ++wall) expected[static_cast<std::size_t>(wall)] = filter_.expected(wall);
-  for (const ExpectedWall& wall : all) {
-    const std::optional<SeenWall> again = wall_finder_.look_for(wall, all);
-    if (again && filter_.meet_again(wall.wall, *again, config_.wall_gate_sigmas)) ++used;
-  }
-  const std::optional<SeenWall> seen = wall_finder_.find();
-  if (seen && filter_.meet(*seen, config_.wall_gate_sigmas) == PoseFilter::WallUse::known) ++used;
-  return used;
-}
-
-bool OdometryCompass::follow_landmark(const LandmarkSighting& sighting) {
-  const Eigen::Matrix3d& seen = sighting.covariance;
-  const bool usable = is_usable(sighting.T_map_landmark) && is_usable(sighting.T_robot_landmark) && seen.allFinite() &&
-                      is_usable(Eigen::Matrix2d(seen.topLeftCorner<2, 2>()));
-  if (!usable) return false;
-  if (correct_by(sighting)) {
-    refused_places_ = 0;
-    return true;
-  }
-  const Point off =
-      sighting.T_map_landmark.position() - filter_.estimate().T_map_robot * sighting.T_robot_landmark.position();
-  const bool agrees = refused_places_ > 0 && (off - refused_off_m_).norm() <= config_.refusals_agree_m;
-  refused_places_ = agrees ? refused_places_ + 1 : 1;
-  refused_off_m_ = off;
-  if (refused_places_ < config_.landmark_refusals) return false;
-  filter_.doubt_position(sighting.T_map_landmark.position(), sighting.T_robot_landmark.position());
-  refused_places_ = 0;
-  return correct_by(sighting);
-}
-
-bool OdometryCompass::correct_by(const LandmarkSighting& sighting) {
-  const double map_variance = config_.landmark_noise_m * config_.landmark_noise_m;
-  Eigen::Matrix3d noise = sighting.covariance;
-  noise(0, 0) += map_variance;
-  noise(1, 1) += map_variance;
-  if (config_.use_landmark_heading && is_usable(noise))
-    return filter_.correct_pose(sighting.T_map_landmark, sighting.T_robot_landmark, noise,
-                                config_.landmark_gate_sigmas);
-  return filter_.correct_position(sighting.T_map_landmark.position(), sighting.T_robot_landmark.position(),
-                                  noise.topLeftCorner<2, 2>(), config_.landmark_gate_sigmas);
+// The other one, from where the chosen one is.
+void OdometryCompass::begin_again() {
+  chosen_.restart_wall_evidence();
+  other_ = chosen_;
+  other_->believe(other_bias_);
 }
 
 }  // namespace cairn::odometry_compass

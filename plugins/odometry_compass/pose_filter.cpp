@@ -96,6 +96,13 @@ void PoseFilter::doubt_bias(double off_rad) {
   covariance_(kBias, kBias) += squared(off_rad);
 }
 
+void PoseFilter::restart_bias(double deviation_rad) {
+  state_[kBias] = 0.0;
+  covariance_.row(kBias).setZero();
+  covariance_.col(kBias).setZero();
+  covariance_(kBias, kBias) = squared(deviation_rad);
+}
+
 void PoseFilter::slide(double along_m, double deviation_m) {
   const Point ahead = unit_vector(state_[kTheta]);
   state_.head<2>() += along_m * ahead;
@@ -171,6 +178,7 @@ bool PoseFilter::correct(const Eigen::Matrix<double, kRows, 1>& innovation, cons
                          const Eigen::Matrix<double, kRows, kRows>& noise, double gate_sigmas) {
   const Eigen::Matrix<double, kRows, kRows> s_inverse = spread<kRows>(h, noise).inverse();
   const double off = innovation.dot(s_inverse * innovation);
+  last_off_ = off;
   if (!(off <= squared(gate_sigmas))) return false;
   using Gain = Eigen::Matrix<double, Eigen::Dynamic, kRows, kRows == 1 ? Eigen::ColMajor : 0, kMaxStates, kRows>;
   Gain with = covariance_.leftCols<kPoseStates>() * h.pose.transpose();
@@ -262,6 +270,7 @@ PoseFilter::WallUse PoseFilter::meet(const SeenWall& seen, double gate_sigmas) {
     if (next < best.squared_sigmas + kAmbiguous) return WallUse::refused;
     if (!correct<2>(best.innovation, best.h, seen.covariance, gate_sigmas)) return WallUse::refused;
     stretch(which, seen);
+    last_met_ = which;
     return WallUse::known;
   }
   if (!seen.is_conservatively_straight || (walls_ == kMaxWalls && !forget_one())) return WallUse::refused;

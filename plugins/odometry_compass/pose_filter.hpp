@@ -50,6 +50,8 @@ class PoseFilter {
   void doubt_heading(double off_rad);
   // Widens the compass's bias by that.
   void doubt_bias(double off_rad);
+  // Nothing is known of the bias but its deviation.
+  void restart_bias(double deviation_rad);
   [[nodiscard]] double bias_rad() const { return state_[kBias]; }
   // The robot has gone so much farther along its heading than it was believed, give or take the deviation.
   void slide(double along_m, double deviation_m);
@@ -72,6 +74,11 @@ class PoseFilter {
   [[nodiscard]] ExpectedWall expected(int wall) const;
   // Corrects by a wall that is known to be this one. Returns false, and does nothing, beyond the gate.
   bool meet_again(int wall, const SeenWall& seen, double gate_sigmas);
+
+  // Of meet(): the wall that it was.
+  [[nodiscard]] int last_met() const { return last_met_; }
+  // Squared Mahalanobis distance of what was measured last, refused or not.
+  [[nodiscard]] double last_off_squared_sigmas() const { return last_off_; }
 
   [[nodiscard]] PoseEstimate estimate() const;
 
@@ -113,6 +120,8 @@ class PoseFilter {
   Covariance covariance_;
   std::array<Wall, kMaxWalls> wall_;
   int walls_ = 0;
+  int last_met_ = -1;
+  double last_off_ = 0.0;
 };
 
 }  // namespace cairn::odometry_compass

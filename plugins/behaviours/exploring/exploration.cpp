@@ -12,6 +12,9 @@
 namespace cairn::behaviours {
 namespace {
 
+// No home was ever known to so large a share while a room of it was missing; cracks beside furniture are what is left.
+constexpr double kAllRooms_ratio = 0.97;
+
 bool can_turn(const RobotModel& robot) {
   return robot.kinematics != Kinematics::car || robot.min_turning_radius_m <= 0.0;
 }
@@ -254,14 +257,15 @@ Status Exploration::finished(const WorldView& world) {
   return {StepState::failure, text};
 }
 
-// A failure when the robot has not got into places that it should fit into, and much is unknown.
+// A failure when the robot has not got into places that it should fit into, and so much is unknown that it may be a
+// room.
 Status Exploration::explored(const WorldView& world) {
   has_nothing_left_ = true;
   chooser_.settle_known(world);
   const std::vector<NotEntered> left = chooser_.not_entered(world);
   std::string text;
   for (const NotEntered& opening : left) text += (text.empty() ? "; not entered: " : ", ") + sentence_of(opening);
-  const bool is_half_known = !chooser_.is_enough_known();
+  const bool is_half_known = chooser_.known_ratio() < std::min(config_.until_known_ratio, kAllRooms_ratio);
   const bool has_missed = std::ranges::any_of(left, [](const NotEntered& opening) { return !opening.is_too_narrow; });
   if (is_half_known && has_missed) return {StepState::failure, "openings not entered: " + summary(world) + text};
   return {StepState::success, "nothing left to explore: " + summary(world) + text};
