@@ -51,7 +51,7 @@ std::string with_initial_pose(double wait_s) {
 
 TEST(AbsentRobot, ItsFirstPoseIsNamedByTopicFrameAndDomain) {
   const Finished finished = run_of("absent_pose", with_initial_pose(1.0));
-  EXPECT_EQ(finished.exit_status, 1);
+  EXPECT_EQ(finished.exit_status, 2);
   EXPECT_THAT(finished.err,
               AllOf(HasSubstr("waiting for a pose on /initialpose in the frame map of ROS domain 148, 1 s at "
                               "most"),
