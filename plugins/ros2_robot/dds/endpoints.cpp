@@ -24,7 +24,7 @@ std::string plain(const std::string& text) {
   return text;
 }
 
-// Some of ROS's distributions bind to the loopback when they are to keep to this computer, others do not: both are met
+// Robots that are to keep to this computer may bind to the loopback, or not: both are met
 // on two interfaces.
 std::string interfaces_of(const NetworkChoice& network) {
   constexpr const char* kLoopback = "<NetworkInterface name=\"lo\" multicast=\"false\"/>";
