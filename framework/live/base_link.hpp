@@ -32,8 +32,11 @@ class BaseLink {
   // other end is gone. Throws std::runtime_error with what came that makes no sense.
   [[nodiscard]] virtual bool receive(std::vector<Observation>& seen) = 0;
 
-  // Where the robot begins in the map frame, when the other end says so; may wait for that. Throws std::runtime_error.
+  // Where the robot begins in the map frame, when the other end says so; may wait for that, and returns
+  // nothing when that is cancelled. Throws std::runtime_error.
   [[nodiscard]] virtual std::optional<Pose2> start() { return std::nullopt; }
+  // What start() waits for, for people; empty: it returns at once. From any thread.
+  [[nodiscard]] virtual std::string awaited_start() const { return {}; }
   // Where the mission is shown; null: nowhere. A part of the link; by the same thread.
   [[nodiscard]] virtual MissionDisplay* display() { return nullptr; }
   // What it is connected to, part by part (framework/contracts/optional/connection_report.hpp); by the same thread.

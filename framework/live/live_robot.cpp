@@ -93,7 +93,23 @@ void LiveRobot::note_wait(std::optional<double> since_s) {
   wait_reason_ = disconnect_reason_;
 }
 
+std::optional<Pose2> LiveRobot::start() const {
+  struct Wait {
+    explicit Wait(std::atomic<bool>& waits) : waits_(waits) { waits_ = true; }
+    ~Wait() { waits_ = false; }
+    Wait(const Wait&) = delete;
+    Wait& operator=(const Wait&) = delete;
+    std::atomic<bool>& waits_;
+  };
+  const Wait wait(waits_for_start_);
+  return link_->start();
+}
+
 std::string LiveRobot::waits_for() const {
+  if (waits_for_start_) {
+    const std::string awaited = link_->awaited_start();
+    return awaited.empty() ? awaited : "waiting for " + awaited;
+  }
   const std::scoped_lock lock(waiting_);
   if (!waits_since_s_ || now_s() - *waits_since_s_ < kPeopleWonderAfter_s) return {};
   return fmt::format("waiting for {}, {:g} s at most{}{}", link_->awaited(), rules_.reconnect_s,

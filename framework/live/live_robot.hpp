@@ -50,7 +50,7 @@ class LiveRobot final : public Sensor,
   // A call that its budget ends is a fault that says so, and the next one goes on.
   SensorStep next(const Budget& budget) override;
   Drive* drive() override { return this; }
-  [[nodiscard]] std::optional<Pose2> start() const override { return link_->start(); }
+  [[nodiscard]] std::optional<Pose2> start() const override;
   MissionDisplay* display() override { return link_->display(); }
   std::vector<ConnectionPart> connection_parts() override { return link_->parts(); }
   [[nodiscard]] std::string waits_for() const override;
@@ -81,6 +81,7 @@ class LiveRobot final : public Sensor,
   std::atomic<std::uint64_t> stops_{0};       // that the thread that sends is to send
   std::atomic<std::uint64_t> stops_sent_{0};  // of these
   mutable std::mutex waiting_;
+  mutable std::atomic<bool> waits_for_start_{false};
   std::optional<double> waits_since_s_;  // what next() waits for, while it does
   std::string wait_reason_;
   std::mutex sending_;  // and whether it is connected

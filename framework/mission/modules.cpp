@@ -3,6 +3,7 @@
 #include "framework/behaviour_tree/parameters.hpp"
 #include "framework/mission/named_values.hpp"
 #include "framework/mission/resume.hpp"
+#include "framework/mission/start_wait.hpp"
 #include "framework/modules/fence.hpp"
 #include "framework/templates/sensed_templates.hpp"
 #include "maps/base/portable_random.hpp"
@@ -112,6 +113,17 @@ Pose2 start_of(const MissionConfig& config) {
   return {config.start.at_m.x(), config.start.at_m.y(), config.start.angle_rad};
 }
 
+// Where the sensor says that the robot begins, which it may wait for.
+std::optional<Pose2> first_pose(const MissionConfig& config, const Sensor& sensor, const Making& making) {
+  const auto is_cancelled = [&] { return making.cancel != nullptr && making.cancel->load(); };
+  const bool was_cancelled = is_cancelled();
+  const StartWait wait(sensor, making.on_wait);
+  const auto start = fenced("sensor", config.sensor.name, [&] { return sensor.start(); });
+  if (is_cancelled() && !was_cancelled)
+    throw ConfigError(config.sensor.config.place, config.sensor.name + " was asked where the robot begins");
+  return start;
+}
+
 std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const ModuleLibrary& library, const Mapper& empty,
                                             const OccupancyGrid& saved) {
   const PluginChoice& map = mission.config.map;
@@ -176,7 +188,7 @@ std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLib
 }
 
 MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume,
-                             const std::atomic<bool>* cancel, const std::optional<LocalizerStart>& start_known) {
+                             const Making& making, const std::optional<LocalizerStart>& start_known) {
   const MissionConfig& config = mission.config;
   MissionModules built;
   built.T_map_start = start_of(config);
@@ -186,11 +198,10 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
     built.T_map_start = resume->progress->true_T_map_robot.value_or(resume->progress->T_map_robot);
   }
-  built.sensor = build_sensor(mission, library, built, cancel);
+  built.sensor = build_sensor(mission, library, built, making.cancel);
   check_has_steps(config, mission.steps, *built.sensor);
   if (resume == nullptr && !start_known) {
-    const auto start = fenced("sensor", config.sensor.name, [&] { return built.sensor->start(); });
-    if (start) built.T_map_start = *start;
+    if (const auto start = first_pose(config, *built.sensor, making)) built.T_map_start = *start;
   }
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
   if (start_known) built.T_map_start = start_known->T_map_start;

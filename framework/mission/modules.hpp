@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/mission/mission.hpp"
@@ -32,11 +34,17 @@ struct MissionModules {
   double begin_s = 0.0;  // the mission's clock
 };
 
+// Of making modules, which may wait.
+struct Making {
+  const std::atomic<bool>* cancel = nullptr;                   // ends what is under way: a log that is read, a wait
+  std::function<void(const std::string& sentence)> on_wait{};  // what is waited for, by another thread
+};
+
 // resume: the map to go on from, or null. start: of a run that leaves its map alone, which needs no detector; its
-// mapper begins with nothing, and where the sensor begins is not where the robot is said to be. cancel: ends the
-// reading of a log that is under way. Throws ConfigError or ModuleFault; StoreError when the map does not fit.
+// mapper begins with nothing, and where the sensor begins is not where the robot is said to be. Throws ConfigError or
+// ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
-                                           const SavedMap* resume = nullptr, const std::atomic<bool>* cancel = nullptr,
+                                           const SavedMap* resume = nullptr, const Making& making = {},
                                            const std::optional<LocalizerStart>& start = std::nullopt);
 
 // The mission's localizer alone.

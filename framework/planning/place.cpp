@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "framework/config/config_value.hpp"
-#include "framework/planning/coordinates.hpp"
+#include "framework/config/coordinates.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {

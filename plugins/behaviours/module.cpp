@@ -1,5 +1,8 @@
 #include "framework/contracts/module.hpp"
 
+#include <memory>
+#include <type_traits>
+
 #include "framework/config/named_category.hpp"
 #include "plugins/behaviours/docking/dock.hpp"
 #include "plugins/behaviours/errands/await_orders.hpp"
@@ -13,38 +16,47 @@
 #include "plugins/behaviours/errands/tour.hpp"
 #include "plugins/behaviours/exploring/explore.hpp"
 #include "plugins/behaviours/exploring/inspect.hpp"
+#include "plugins/behaviours/following/waiting_while_stopped.hpp"
 
 namespace {
 
 using namespace cairn;
 using namespace cairn::behaviours;
 
-// A behaviour that drives: made with its settings and a seed. places: the settings that name some.
-template <class Step, class Config, class... Member>
-void add_driving(Registrar& registrar, const char* name, const char* summary, Member... places) {
-  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const BehaviourFactoryContext& context) {
-    (check_named_categories(config.*places, name, context.categories), ...);
+template <class Step, class Config>
+std::unique_ptr<Behaviour> made(const Config& config, const BehaviourFactoryContext& context) {
+  if constexpr (std::is_constructible_v<Step, Config, std::uint64_t, std::vector<std::string>>)
+    return std::make_unique<Step>(config, context.seed, context.categories);
+  else if constexpr (std::is_constructible_v<Step, Config, std::uint64_t>)
     return std::make_unique<Step>(config, context.seed);
-  });
+  else
+    return std::make_unique<Step>(config);
 }
 
+// places: the settings that name some.
 template <class Step, class Config, class... Member>
 void add(Registrar& registrar, const char* name, const char* summary, Member... places) {
   registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const BehaviourFactoryContext& context) {
     (check_named_categories(config.*places, name, context.categories), ...);
-    return std::make_unique<Step>(config);
+    return made<Step>(config, context);
+  });
+}
+
+// A behaviour that drives all the time.
+template <class Step, class Config, class... Member>
+void add_driving(Registrar& registrar, const char* name, const char* summary, Member... places) {
+  registrar.add<Behaviour, Config>(name, summary, [=](const Config& config, const BehaviourFactoryContext& context) {
+    (check_named_categories(config.*places, name, context.categories), ...);
+    return std::make_unique<WaitingWhileStopped>(made<Step>(config, context));
   });
 }
 
 void register_module(Registrar& registrar) {
-  add<Explore, ExploreConfig>(registrar, "explore",
-                              "explores the reachable space at a safe distance and looks closer at what it finds");
-  add<FindMyself, FindMyselfConfig>(registrar, "find_myself",
-                                    "drives until a robot that is lost has found itself in its map");
-  registrar.add<Behaviour, SearchConfig>("search", "explores until so many landmarks of a category are known",
-                                         [](const SearchConfig& config, const BehaviourFactoryContext& context) {
-                                           return std::make_unique<Search>(config, context.seed, context.categories);
-                                         });
+  add_driving<Explore, ExploreConfig>(
+      registrar, "explore", "explores the reachable space at a safe distance and looks closer at what it finds");
+  add_driving<FindMyself, FindMyselfConfig>(registrar, "find_myself",
+                                            "drives until a robot that is lost has found itself in its map");
+  add_driving<Search, SearchConfig>(registrar, "search", "explores until so many landmarks of a category are known");
   add_driving<Inspect, InspectConfig>(registrar, "inspect",
                                       "goes to a landmark and circles it until its degree does not rise any more",
                                       &InspectConfig::landmark);
@@ -59,9 +71,9 @@ void register_module(Registrar& registrar) {
   add_driving<Dock, DockConfig>(registrar, "dock", "stops at a distance beside a landmark, on a given side of it",
                                 &DockConfig::landmark);
   add_driving<DriveTo, DriveConfig>(registrar, "drive", "drives straight from point to point");
-  add_driving<AwaitOrders, AwaitOrdersConfig>(registrar, "await_orders",
-                                              "waits for orders that people give while the mission runs, and carries "
-                                              "each out");
+  // Takes orders while the robot is stopped, too; what it carries out waits.
+  add<AwaitOrders, AwaitOrdersConfig>(registrar, "await_orders",
+                                      "waits for orders that people give while the mission runs, and carries each out");
   add<Wait, WaitConfig>(registrar, "wait", "stands still for a time");
   add<NameLandmark, NameConfig>(registrar, "name", "gives a landmark a name, by which steps and questions find it",
                                 &NameConfig::landmark);

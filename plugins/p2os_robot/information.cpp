@@ -8,8 +8,10 @@ constexpr std::uint8_t kMoving = 0x33;
 constexpr std::size_t kBeforeSonars = 20;
 constexpr std::size_t kSonar = 3;
 constexpr unsigned kPosition = 0x7FFF;
-constexpr unsigned kStall = 0x01;   // of each of the two bytes of stalls and bumpers
-constexpr unsigned kBumper = 0xFE;  // the same
+constexpr unsigned kStall = 0x01;     // of each of the two bytes of stalls and bumpers
+constexpr unsigned kBumper = 0xFE;    // the same
+constexpr unsigned kMotorsOn = 0x01;  // of the flags
+constexpr unsigned kEmergency = 0x20;
 
 }  // namespace
 
@@ -25,6 +27,8 @@ std::optional<Information> information_of(std::span<const std::uint8_t> data) {
   seen.battery_v = data[11] / 10.0;
   seen.is_stalled = ((data[12] | data[13]) & kStall) != 0;
   seen.is_bumped = ((data[12] | data[13]) & kBumper) != 0;
+  seen.are_motors_on = (word(16) & kMotorsOn) != 0;
+  seen.is_emergency = (word(16) & kEmergency) != 0;
   seen.compass = data[18];
   const std::size_t count = data[19];
   if (data.size() < kBeforeSonars + kSonar * count) return std::nullopt;

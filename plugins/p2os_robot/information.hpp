@@ -20,6 +20,8 @@ struct Information {
   double battery_v = 0.0;
   bool is_stalled = false;
   bool is_bumped = false;
+  bool are_motors_on = false;      // not of PSOS
+  bool is_emergency = false;       // a button is pressed, or has not been released; not of PSOS
   int compass = 0;                 // in 2 degrees
   std::vector<HeardSonar> sonars;  // those only that have been heard since the last packet
 };

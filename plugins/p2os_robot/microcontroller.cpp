@@ -29,6 +29,7 @@ constexpr double kMaxStep_m = 0.5;  // between two packets
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCompassStep_rad = radians(2.0);
 constexpr double kMaxDamagedRatio = 0.02;  // of packets
+constexpr double kMotorsComeOnWithin_s = 1.0;
 
 // Velocity and turn velocity 0.
 std::vector<std::uint8_t> standing_bytes() {
@@ -96,6 +97,8 @@ bool Microcontroller::connect(const Budget& budget, std::string& why) {
     return false;
   }
   reader_.clear();
+  // A robot that is still in the session of before turns its wheels again with any packet after its watchdog.
+  if (identity_) (void)send_stop();
   const std::optional<Identity> identity = synchronised(budget, why);
   if (!identity) {
     disconnect();
@@ -140,6 +143,8 @@ void Microcontroller::begin_session(const Identity& identity) {
   odometry_.begin_session(units_);
   identity_ = identity;
   packets_ = 0;
+  begun_s_ = live::now_s();
+  were_motors_on_ = false;
   write(CommandPacket(Command::open));
   (void)send_stop();
   {
@@ -150,7 +155,8 @@ void Microcontroller::begin_session(const Identity& identity) {
                                               silence = std::chrono::milliseconds(std::lround(1e3 * config_.guard_s))](
                                                  int beats) { live::write_in_silence(beats, port, stop, silence); });
   }
-  if (units_.has_motor_switch) write(CommandPacket(Command::enable_motors, 1));
+  // Motors that somebody has switched off are not switched on because the line failed for a moment.
+  if (units_.has_motor_switch && holder_.empty()) write(CommandPacket(Command::enable_motors, 1));
   write(CommandPacket(Command::sonar, 1));
 }
 
@@ -183,6 +189,7 @@ std::vector<ConnectionPart> Microcontroller::parts() {
         {"packets", fmt::format("{:.1f} a second", (packets_ - 1) / (last_packet_s_ - first_packet_s_))});
   line.values.push_back({"wrong checksums", std::to_string(reader_.damaged())});
   if (packets_ > 0) line.values.push_back({"age", fmt::format("{:.2f} s", live::now_s() - last_packet_s_)});
+  if (!holder_.empty()) line.problem = "the robot is stopped by " + holder_ + ": it would not move";
   if (reader_.damaged() > kMaxDamagedRatio * packets_ + 1.0)
     line.problem = "many packets have a wrong checksum: is the cable sound, and does nothing else use the line?";
   return {line};
@@ -216,6 +223,9 @@ Observation Microcontroller::observation_of(const Information& seen) {
   observation.T_odom_robot = odometry_.pose_at(seen);
   if (config_.has_compass) observation.compass_rad = heading_rad(seen.compass, config_.compass_offset_rad);
   observation.bumped = seen.is_bumped || seen.is_stalled;
+  holder_ = holder_of(seen);
+  is_held_ = !holder_.empty();
+  observation.stopped_by = holder_;
   if (seen.battery_v > 0.0)
     observation.battery_ratio = std::clamp(
         (seen.battery_v - config_.battery_empty_v) / (config_.battery_full_v - config_.battery_empty_v), 0.0, 1.0);
@@ -233,11 +243,22 @@ Observation Microcontroller::observation_of(const Information& seen) {
   return observation;
 }
 
+// At first they are off, until the order to switch them on has been obeyed. A person's button switches them on again.
+std::string Microcontroller::holder_of(const Information& seen) {
+  if (!units_.has_motor_switch) return {};
+  if (seen.is_emergency) return "its emergency button";
+  were_motors_on_ = were_motors_on_ || seen.are_motors_on;
+  const bool may_be_coming_on = !were_motors_on_ && holder_.empty() && live::now_s() - begun_s_ < kMotorsComeOnWithin_s;
+  if (seen.are_motors_on || may_be_coming_on) return {};
+  return "its motors, which are switched off (press its MOTORS button)";
+}
+
 void Microcontroller::write(const CommandPacket& packet) noexcept {
   (void)write_now(line_.get(), packet.bytes());
 }
 
-void Microcontroller::send(const Twist& twist) noexcept {
+void Microcontroller::send(const Twist& wanted) noexcept {
+  const Twist twist = is_held_ ? Twist{} : wanted;
   write(CommandPacket(Command::velocity, static_cast<int>(std::lround(1e3 * twist.v_mps))));
   write(CommandPacket(Command::turn_velocity, static_cast<int>(std::lround(degrees(twist.w_radps)))));
 }

@@ -1,6 +1,7 @@
 // The microcontroller of a Pioneer at a serial line.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -49,6 +50,8 @@ class Microcontroller final : public live::BaseLink {
   [[nodiscard]] std::optional<Identity> synchronised(const Budget& budget, std::string& why);
   void begin_session(const Identity& identity);
   [[nodiscard]] Observation observation_of(const Information& seen);
+  // Who holds the wheels, by the flags; empty: nobody.
+  [[nodiscard]] std::string holder_of(const Information& seen);
 
   Config config_;
   RobotModel robot_;
@@ -66,6 +69,10 @@ class Microcontroller final : public live::BaseLink {
   double first_packet_s_ = 0.0;
   double last_packet_s_ = 0.0;
   double battery_v_ = 0.0;
+  double begun_s_ = 0.0;
+  bool were_motors_on_ = false;
+  std::string holder_;                // kept from one session to the next
+  std::atomic<bool> is_held_{false};  // the same, for the thread that sends
 };
 
 }  // namespace cairn::p2os_robot

@@ -34,11 +34,18 @@ void InitialPoseTopic::describe(Fields<InitialPoseTopic>& fields) {
 }
 
 void Config::describe(Fields<Config>& fields) {
-  fields.integer("domain", &Config::domain, {0, 232}, "as ROS_DOMAIN_ID");
-  fields.choice("network", &Config::network, {{"any", Network::any}, {"localhost", Network::localhost}},
-                "localhost: this computer only");
+  fields
+      .integer("domain", &Config::domain, {kDomains.first, kDomains.second},
+               "the ROS domain; without it the environment's ROS_DOMAIN_ID, else 0")
+      .default_text.clear();
+  fields.choice("network", &Config::network,
+                {{"environment", Network::environment}, {"any", Network::any}, {"localhost", Network::localhost}},
+                "localhost: this computer, and the peers; environment: as ROS_AUTOMATIC_DISCOVERY_RANGE and "
+                "ROS_LOCALHOST_ONLY say, else any");
   fields.text("interface", &Config::interface, "name of the network interface, as wlan0; empty: as the system chooses");
-  fields.texts("peers", &Config::peers, "addresses of computers that are asked besides multicast");
+  fields.texts("peers", &Config::peers,
+               "addresses of computers that are asked besides multicast; without them those of the environment's "
+               "ROS_STATIC_PEERS");
   ros::describe_topics(fields);
   fields.group("command", &Config::command, "velocities");
   fields.group("show", &Config::show, "topics that show the mission to people");

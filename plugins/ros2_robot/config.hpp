@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugins/common/ros/settings.hpp"
@@ -15,7 +16,11 @@ using ros::RangeKind;
 using ros::RangeTopic;
 using ros::Stamp;
 
-enum class Network { any, localhost };
+constexpr std::pair<int, int> kDomains{0, 232};  // the first and the last one
+
+constexpr int kDomainOfEnvironment = -1;
+
+enum class Network { environment, any, localhost };
 enum class CommandKind { by_subscriber, twist, twist_stamped };
 
 struct CommandTopic {
@@ -48,10 +53,10 @@ struct InitialPoseTopic {
 };
 
 struct Config : ros::RobotTopics {
-  int domain = 0;
-  Network network = Network::any;
+  int domain = kDomainOfEnvironment;
+  Network network = Network::environment;
   std::string interface;           // empty: as the system chooses
-  std::vector<std::string> peers;  // addresses that are asked besides multicast
+  std::vector<std::string> peers;  // addresses that are asked besides multicast; none: as the environment says
   CommandTopic command;
   ShownTopics show;
   std::string goal;  // empty: none

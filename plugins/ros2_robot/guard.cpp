@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLastStops = 5;
 constexpr std::chrono::milliseconds kStopEvery(50);
-constexpr std::size_t kWithoutPeers = 8;
+constexpr std::size_t kWithoutPeers = 9;
 
 std::vector<std::string> arguments_of(const GuardOrder& order, const std::string& program) {
   std::vector<std::string> all{program,
@@ -28,7 +28,8 @@ std::vector<std::string> arguments_of(const GuardOrder& order, const std::string
                                order.velocity.topic,
                                std::to_string(static_cast<int>(order.velocity.kind)),
                                order.velocity.frame,
-                               std::to_string(order.silence.count())};
+                               std::to_string(order.silence.count()),
+                               order.network.is_without_multicast ? "1" : "0"};
   all.insert(all.end(), order.network.peers.begin(), order.network.peers.end());
   return all;
 }
@@ -42,7 +43,8 @@ int number_in(const char* text) {
 GuardOrder order_in(std::span<const char* const> arguments) {
   if (arguments.size() < kWithoutPeers) throw std::runtime_error("is started by ros2_robot");
   GuardOrder order;
-  order.network = {number_in(arguments[1]), number_in(arguments[2]) != 0, arguments[3], {}};
+  order.network = {
+      number_in(arguments[1]), number_in(arguments[2]) != 0, arguments[3], {}, number_in(arguments[8]) != 0};
   for (const char* peer : arguments.subspan(kWithoutPeers)) order.network.peers.emplace_back(peer);
   order.velocity.topic = arguments[4];
   order.velocity.kind = static_cast<CommandKind>(number_in(arguments[5]));

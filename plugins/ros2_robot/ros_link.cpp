@@ -25,14 +25,11 @@ constexpr std::chrono::milliseconds kReceiveWithin(20);
 constexpr double kTwoPublishersWithin_s = 1.0;
 constexpr std::size_t kMaxListed = 8;
 
-NetworkChoice network_of(const Config& config) {
-  return {config.domain, config.network == Network::localhost, config.interface, config.peers};
-}
-
 }  // namespace
 
 RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard)
     : config_(config),
+      chosen_(choose_network(config)),
       robot_(robot),
       budget_(budget),
       guard_program_(std::move(guard)),
@@ -43,11 +40,19 @@ RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& bu
 }
 
 std::string RosLink::name() const {
-  return fmt::format("the robot in ROS domain {}", config_.domain);
+  return fmt::format("the robot in ROS domain {}", chosen_.network.domain);
 }
 
 std::string RosLink::awaited() const {
-  return fmt::format("{} in ROS domain {}", config_.odometry, config_.domain);
+  return fmt::format("{} in ROS domain {}", config_.odometry, chosen_.network.domain);
+}
+
+std::string RosLink::awaited_start() const {
+  const InitialPoseTopic& initial = config_.initial_pose;
+  if (initial.topic.empty()) return {};
+  return fmt::format(
+      "a pose on {} in the frame {} of ROS domain {}, {:g} s at most: RViz gives one by `2D Pose Estimate`",
+      initial.topic, config_.show.map_frame, chosen_.network.domain, initial.wait_s);
 }
 
 // Whoever gives the pose has found this participant by then, or gives it again.
@@ -63,7 +68,7 @@ std::optional<Pose2> RosLink::start() {
     take_all<PoseWithCovarianceStamped>(reader.get(), [&](const PoseWithCovarianceStamped& pose) {
       if (is_in_frame(pose.header, config_.show.map_frame)) given = pose_of(pose.pose.pose);
     });
-  if (!given)
+  if (!given && !budget_.cancelled())
     throw std::runtime_error(fmt::format("nobody has given a pose on {} in the frame {} for {:g} s", initial.topic,
                                          config_.show.map_frame, initial.wait_s));
   return given;
@@ -93,7 +98,7 @@ void RosLink::disconnect() {
 }
 
 void RosLink::make_endpoints() {
-  participant_.emplace(network_of(config_));
+  participant_.emplace(chosen_.network);
   odometry_ = participant_->reader(config_.odometry, nav_msgs_msg_dds__Odometry__desc);
   ranges_.open(*participant_);
   const CompassTopic& compass = config_.compass;
@@ -116,7 +121,7 @@ void RosLink::make_guard() {
   if (guard_program_.empty() || (guard_ && guard_->is_there())) return;
   const std::scoped_lock lock(guarding_);
   const std::chrono::milliseconds silence(std::lround(1e3 * config_.guard_s));
-  guard_ = guard_of({network_of(config_), config_.command, silence}, guard_program_);
+  guard_ = guard_of({chosen_.network, config_.command, silence}, guard_program_);
 }
 
 std::string RosLink::nobody_there() const {
@@ -133,7 +138,7 @@ std::string RosLink::nobody_there() const {
   if (has_topic) return fmt::format("{} is there, but does not fit: {}", config_.odometry, fmt::join(offered, ", "));
   if (offered.empty())
     return fmt::format("nobody publishes anything in domain {}: is ROS_DOMAIN_ID the same, and the network?",
-                       config_.domain);
+                       chosen_.network.domain);
   const std::vector<std::string> all(offered.begin(), offered.end());
   const std::vector<std::string> some(all.begin(), all.begin() + std::min<std::ptrdiff_t>(std::ssize(all), kMaxListed));
   return fmt::format("nobody publishes {}{}; there are {}{}", config_.odometry, did_you_mean(config_.odometry, all),
@@ -209,7 +214,9 @@ std::vector<ConnectionPart> RosLink::parts() {
   if (!participant_) make_endpoints();
   const TopicReport report(*participant_, observer_.heard(), live::now_s());
   std::vector<ConnectionPart> parts{
-      report.of_network(fmt::format("ROS domain {}", config_.domain), config_.command.topic)};
+      report.of_network(fmt::format("ROS domain {}", chosen_.network.domain), config_.command.topic)};
+  if (!chosen_.variables.empty())
+    parts.back().values.push_back({"environment", fmt::format("{}", fmt::join(chosen_.variables, ", "))});
   parts.push_back(report.of_reader(odometry_, Importance::steady));
   for (std::size_t i = 0; i < config_.ranges.size(); ++i) {
     parts.push_back(report.of_reader(ranges_.readers()[i], Importance::steady));

@@ -17,14 +17,15 @@
 #include "plugins/ros2_robot/dds/velocity_topic.hpp"
 #include "plugins/ros2_robot/display_topics.hpp"
 #include "plugins/ros2_robot/messages.hpp"
+#include "plugins/ros2_robot/network.hpp"
 #include "plugins/ros2_robot/range_topics.hpp"
 
 namespace cairn::ros2_robot {
 
 class RosLink final : public live::BaseLink {
  public:
-  // Throws std::invalid_argument with a setting that cannot be. The budget is of start(). guard: the program that
-  // guards the wheels (guard.cpp); empty: none does.
+  // Throws std::invalid_argument with a setting or a variable of the environment that cannot be. The budget is of
+  // start(). guard: the program that guards the wheels (guard.cpp); empty: none does.
   RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard);
 
   [[nodiscard]] std::string name() const override;
@@ -35,6 +36,7 @@ class RosLink final : public live::BaseLink {
   [[nodiscard]] bool receive(std::vector<Observation>& seen) override;
   // Waits for it where the settings say so.
   [[nodiscard]] std::optional<Pose2> start() override;
+  [[nodiscard]] std::string awaited_start() const override;
   [[nodiscard]] MissionDisplay* display() override { return &display_; }
   [[nodiscard]] std::vector<ConnectionPart> parts() override;
   void send(const Twist& twist) noexcept override;
@@ -56,6 +58,7 @@ class RosLink final : public live::BaseLink {
   void check_publisher(dds_instance_handle_t publisher, double now_s);
 
   Config config_;
+  ChosenNetwork chosen_;
   RobotModel robot_;
   Budget budget_;
   std::filesystem::path guard_program_;

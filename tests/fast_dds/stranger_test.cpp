@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <numbers>
 #include <thread>
 
@@ -98,6 +99,21 @@ void expect_what_was_written(const Observation& seen) {
   std::vector<double> ranges;
   for (const RangeReading& reading : seen.ranges) ranges.push_back(reading.range_m);
   EXPECT_THAT(ranges, testing::IsSupersetOf({2.5, 1.0, 2.0, 3.0}));
+}
+
+// A robot may bind to the loopback then, or not; this one does.
+TEST(LocalhostOfTheEnvironment, MeetsARobotThatIsBoundToTheLoopback) {
+  ::setenv("ROS_LOCALHOST_ONLY", "1", 1);
+  const StrangeRobot robot(Offer{});
+  Config config = config_of_stranger();
+  config.network = ros2_robot::Network::environment;
+  {
+    live::LiveRobot driven(ros2_robot::link_to(config, robot_with_sonar_and_laser()), config.stop_when,
+                           robot_with_sonar_and_laser());
+    const SensorStep step = driven.next({});
+    EXPECT_EQ(step.state, SensorState::observation) << step.reason;
+  }
+  ::unsetenv("ROS_LOCALHOST_ONLY");
 }
 
 class Quality : public testing::TestWithParam<std::pair<bool, bool>> {

@@ -65,6 +65,15 @@ TEST(Guide, TheDriveOfTheSensorGuideStandsInACompiledFile) {
   EXPECT_EQ(missions, std::vector{text_of_file(kSource / "tests/guide/wheels/mission.yaml")});
 }
 
+TEST(Guide, TheBaseOfOnesOwnStandsInCompiledFiles) {
+  const std::string page = text_of_file(kSource / "docs/your-robot.md");
+  const std::string code = all_files_with({".hpp", ".cpp"}, kSource / "tests/guide/own_base");
+  EXPECT_EQ(blocks_of("cpp", page).size(), 6U);
+  for (const std::string& block : blocks_of("cpp", page)) EXPECT_THAT(code, HasSubstr("\n" + block));
+  const std::vector<std::string> missions = blocks_of("yaml", page);
+  EXPECT_EQ(missions, std::vector{text_of_file(kSource / "tests/guide/own_base/mission.yaml")});
+}
+
 TEST(Guide, TheMissionOfTheSensorGuideIsSoundAndSaysWhichLineCannotBeOpened) {
   const std::string mission = (kSource / "tests/guide/wheels/mission.yaml").string();
   const Finished finished = run_cairn({"run", mission, "--plugins", kModules, "--set", "sensor.device=/dev/no_board",

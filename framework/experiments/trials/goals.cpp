@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/config/coordinates.hpp"
 #include "framework/experiments/trials/true_space.hpp"
 
 namespace cairn {
@@ -56,7 +57,7 @@ std::vector<ActiveFault> faults_of(const Mission& mission) {
 }
 
 Target target_of(const ConfigValue& value) {
-  if (value.kind == ConfigValue::Kind::list) return {config_detail::to_point(value, "places"), ""};
+  if (const std::optional<Point> at_m = point_in(value, "places")) return {*at_m, ""};
   const std::string name = config_detail::to_text(value, "landmark");
   return {{0.0, 0.0}, name.starts_with(kNearest) ? name.substr(kNearest.size()) : name};
 }

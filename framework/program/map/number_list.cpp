@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "framework/planning/coordinates.hpp"
+#include "framework/config/coordinates.hpp"
 #include "maps/base/source_text.hpp"
 #include "maps/base/spelling.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "framework/planning/coordinates.hpp"
+#include "framework/config/coordinates.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {

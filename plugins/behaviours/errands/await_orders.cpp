@@ -6,6 +6,7 @@
 #include "plugins/behaviours/errands/name_landmark.hpp"
 #include "plugins/behaviours/errands/return_home.hpp"
 #include "plugins/behaviours/exploring/explore.hpp"
+#include "plugins/behaviours/following/waiting_while_stopped.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -85,7 +86,7 @@ Status AwaitOrders::begin(const Order& order, const WorldView& world, BehaviourC
   Begun next = begun(order, seed_, world, context);
   if (!next.refusal.empty()) return {StepState::failure, std::move(next.refusal)};
   const std::string before = under_way_ ? " in place of " + order_ : "";
-  under_way_ = std::move(next.step);
+  under_way_ = std::make_unique<WaitingWhileStopped>(std::move(next.step));
   order_ = order.text;
   idle_since_s_.reset();
   context.report("order " + order_ + " taken" + before);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "framework/config/coordinates.hpp"
 #include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
@@ -29,8 +30,8 @@ GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed
     throw ConfigError(config.landmark.place,
                       "goto: needs a landmark (`landmark: nearest square`), a place (`at_m: [x, y]`) or the place that "
                       "an earlier step gives (`input: NAME`)");
-  if (config.landmark.kind == ConfigValue::Kind::list) {
-    config_.at_m = config_detail::to_point(config.landmark, "goto");
+  if (const std::optional<Point> at_m = point_in(config.landmark, "goto")) {
+    config_.at_m = at_m;
     config_.landmark = {};
   } else if (names_landmark) {
     landmark_name_ = to_landmark_name(config.landmark, "landmark");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "framework/config/coordinates.hpp"
 #include "framework/config/fields.hpp"
 #include "framework/config/named_category.hpp"
 #include "maps/base/text.hpp"
@@ -41,28 +42,15 @@ std::string known_clusters(const ClusterTree& clusters, const LandmarkGraph& gra
   return listed > kMaxListed ? list + ", ..." : list;
 }
 
-// "2.0,1.0", as `cairn plan` takes places; no landmark is called so.
-bool reads_as_coordinates(std::string_view text) {
-  const std::size_t comma = text.find(',');
-  return comma != std::string_view::npos && number_from<double>(trimmed(text.substr(0, comma))) &&
-         number_from<double>(trimmed(text.substr(comma + 1, text.find(',', comma + 1) - comma - 1)));
-}
-
-void refuse_coordinates(const ConfigValue& value, const std::string& key, const std::string& text) {
-  if (reads_as_coordinates(text))
-    throw ConfigError(value.place, key + ": a place is written [x, y], found the text " + in_quotes(text));
-}
-
 }  // namespace
 
 PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
-  if (value.kind == ConfigValue::Kind::list) return place_name_of(config_detail::to_point(value, key));
+  if (const std::optional<Point> at_m = point_in(value, key)) return place_name_of(*at_m);
   PlaceName name{config_detail::to_text(value, key), std::nullopt};
   if (names_nothing(name.text))
     throw ConfigError(value.place, key + ": " + in_quotes(name.text) +
                                        " is not a place; one is [x, y], a landmark's id (L3) or name, or `nearest "
                                        "CATEGORY`");
-  refuse_coordinates(value, key, name.text);
   return name;
 }
 
@@ -71,7 +59,10 @@ std::string to_landmark_name(const ConfigValue& value, const std::string& key) {
   if (names_nothing(name))
     throw ConfigError(value.place, key + ": " + in_quotes(name) +
                                        " is not a landmark; one is an id (L3), a name, or `nearest CATEGORY`");
-  refuse_coordinates(value, key, name);
+  if (const auto numbers = coordinates_in(name); numbers && numbers->size() > 1)
+    throw ConfigError(value.place, key + ": " + in_quotes(name) +
+                                       " is a place, and a landmark is wanted: an id (L3), a name, or `nearest "
+                                       "CATEGORY`");
   return name;
 }
 

@@ -1,4 +1,4 @@
-// Places as missions write them: `[x, y]`, a landmark's or cluster's id or name, `nearest CATEGORY`.
+// Places as missions write them: `[x, y]` or `"x,y"`, a landmark's or cluster's id or name, `nearest CATEGORY`.
 #pragma once
 
 #include <optional>

@@ -7,6 +7,9 @@
 namespace cairn::ros {
 namespace {
 
+// An odometry that is older than the last by more is of a clock that was set. Less than the wheels may turn in silence.
+constexpr double kOvertakenWithin_s = 0.25;
+
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
@@ -56,14 +59,20 @@ void RobotObserver::take_emergency(bool is_on, double arrived_s) {
   is_emergency_ = is_on;
 }
 
+bool RobotObserver::is_overtaken(double stamp_s) const {
+  return last_stamp_s_ && stamp_s < *last_stamp_s_ && *last_stamp_s_ - stamp_s <= kOvertakenWithin_s;
+}
+
 // Each reading as seen from where the robot is now.
 std::optional<Observation> RobotObserver::take(const Odometry& odometry, double arrived_s) {
   mark(topics_.odometry, odometry.header, arrived_s);
   places_.found_base(odometry.child_frame);
   const std::optional<Pose2> pose = pose_of(odometry.position_m, odometry.orientation);
-  if (!pose) return std::nullopt;
+  const double stamp = stamp_s(topics_, odometry.header, arrived_s);
+  if (!pose || is_overtaken(stamp)) return std::nullopt;
+  last_stamp_s_ = stamp;
   Observation observation;
-  observation.stamp_s = stamp_s(topics_, odometry.header, arrived_s);
+  observation.stamp_s = stamp;
   observation.T_odom_robot = *pose;
   observation.compass_rad = std::exchange(compass_rad_, std::nullopt);
   observation.battery_ratio = battery_ratio_;

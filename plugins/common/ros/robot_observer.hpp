@@ -34,7 +34,7 @@ class RobotObserver {
                   const Eigen::Quaterniond& rotation) {
     (void)places_.add(parent, child, position_m, rotation);
   }
-  // None: it is no pose.
+  // None: it is no pose, or it is older than one that has come already.
   [[nodiscard]] std::optional<Observation> take(const Odometry& odometry, double arrived_s);
 
   // From any thread: the wheels must stand.
@@ -46,6 +46,7 @@ class RobotObserver {
 
  private:
   void mark(const std::string& topic, const Header& header, double arrived_s);
+  [[nodiscard]] bool is_overtaken(double stamp_s) const;
 
   const RobotTopics& topics_;
   RangeBuffer ranges_;
@@ -53,6 +54,7 @@ class RobotObserver {
   PoseHistory poses_;
   live::Continuity continuity_;
   HeardTopics heard_;
+  std::optional<double> last_stamp_s_;  // of the odometry
   std::optional<double> compass_rad_;
   std::optional<double> battery_ratio_;
   std::vector<char> bumped_;  // each bumper's last word

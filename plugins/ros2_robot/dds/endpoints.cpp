@@ -19,22 +19,30 @@ Entity checked(dds_entity_t handle, const std::string& what) {
   return Entity(handle);
 }
 
-// Characters that could end what they stand in are no part of a name or an address.
 std::string plain(const std::string& text) {
-  for (const char c : text)
-    if (c == '"' || c == '<' || c == '&') throw std::runtime_error("\"" + text + "\" is no name or address");
+  if (!is_plain(text)) throw std::runtime_error("\"" + text + "\" is no name or address");
   return text;
+}
+
+// Robots that are to keep to this computer may bind to the loopback, or not: both are met
+// on two interfaces.
+std::string interfaces_of(const NetworkChoice& network) {
+  constexpr const char* kLoopback = "<NetworkInterface name=\"lo\" multicast=\"false\"/>";
+  if (network.is_local) return kLoopback;
+  const std::string own =
+      network.interface.empty() ? "" : "<NetworkInterface name=\"" + plain(network.interface) + "\"/>";
+  if (!network.is_without_multicast || network.interface == "lo") return own;
+  return (own.empty() ? "<NetworkInterface autodetermine=\"true\"/>" : own) + kLoopback;
 }
 
 std::string settings_of(const NetworkChoice& network) {
   std::string general;
-  const std::string interface = network.is_local ? "lo" : network.interface;
-  if (!interface.empty())
-    general += "<Interfaces><NetworkInterface name=\"" + plain(interface) + "\"" +
-               (network.is_local ? " multicast=\"false\"" : "") + "/></Interfaces>";
-  if (network.is_local) general += "<AllowMulticast>false</AllowMulticast>";
+  const std::string interfaces = interfaces_of(network);
+  if (!interfaces.empty()) general += "<Interfaces>" + interfaces + "</Interfaces>";
+  const bool is_silent = network.is_local || network.is_without_multicast;
+  if (is_silent) general += "<AllowMulticast>false</AllowMulticast>";
   std::vector<std::string> peers = network.peers;
-  if (network.is_local) peers.emplace_back("127.0.0.1");
+  if (is_silent) peers.emplace_back("127.0.0.1");
   std::string discovery =
       "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>";
   if (!peers.empty()) {
@@ -60,6 +68,10 @@ struct Qos {
 };
 
 }  // namespace
+
+bool is_plain(const std::string& text) {
+  return text.find_first_of("\"<&") == std::string::npos;
+}
 
 std::string ros_name_of(const std::string& topic) {
   return topic.starts_with("rt/") ? topic.substr(2) : topic;

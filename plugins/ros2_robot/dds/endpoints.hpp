@@ -36,10 +36,14 @@ class Entity {
 
 struct NetworkChoice {
   int domain = 0;
-  bool is_local = false;
+  bool is_local = false;  // the loopback interface only
   std::string interface;
   std::vector<std::string> peers;
+  bool is_without_multicast = false;  // only this computer and the peers are asked
 };
+
+// Whether a name or address has no character that could end what it stands in.
+[[nodiscard]] bool is_plain(const std::string& text);
 
 // "rt/scan" is /scan; what has no such name is as it is.
 [[nodiscard]] std::string ros_name_of(const std::string& topic);

@@ -19,12 +19,21 @@ TEST(Information, IsReadFromItsBytes) {
   EXPECT_DOUBLE_EQ(seen->battery_v, 12.7);
   EXPECT_TRUE(seen->is_stalled);
   EXPECT_TRUE(seen->is_bumped);
+  EXPECT_TRUE(seen->are_motors_on);
+  EXPECT_FALSE(seen->is_emergency);
   EXPECT_EQ(seen->compass, 45);
   ASSERT_EQ(seen->sonars.size(), 2U);
   EXPECT_EQ(seen->sonars[0].number, 3);
   EXPECT_EQ(seen->sonars[0].range_counts, 1000);
   EXPECT_EQ(seen->sonars[1].number, 12);
   EXPECT_EQ(seen->sonars[1].range_counts, 10000);
+}
+
+TEST(Information, OfAnEmergencyIsReadFromTheFlags) {
+  std::vector<std::uint8_t> stopped = packet();
+  stopped[16] = 0x20;
+  EXPECT_FALSE(information_of(stopped)->are_motors_on);
+  EXPECT_TRUE(information_of(stopped)->is_emergency);
 }
 
 TEST(Information, IsNotReadFromOtherPacketsOrTooFewBytes) {

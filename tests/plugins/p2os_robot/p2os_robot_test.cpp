@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 
 #include "framework/live/live_robot.hpp"
 #include "framework/live/steady_time.hpp"
@@ -52,10 +53,10 @@ class P2osRobot : public testing::Test {
     return step.observation;
   }
   // Orders 0.2 m/s at each observation, as a mission does.
-  static void drive(live::LiveRobot& driven, double for_s) {
+  static void drive(live::LiveRobot& driven, double for_s, const Twist& twist = {0.2, 0.0}) {
     for (const double begin_s = live::now_s(); live::now_s() - begin_s < for_s;) {
       (void)next_of(driven);
-      driven.drive()->command({0.2, 0.0}, 0.3);
+      driven.drive()->command(twist, 0.3);
     }
   }
   [[nodiscard]] auto stands() {
@@ -178,6 +179,50 @@ TEST_F(P2osRobot, DamagedPacketsAreLeftOut) {
   for (int i = 0; i < 10; ++i) EXPECT_DOUBLE_EQ(next_of(*driven).ranges.at(0).range_m, 1.0);
 }
 
+TEST_F(P2osRobot, PacketsThatComeTwiceChangeNothing) {
+  const auto driven = connected();
+  pioneer.is_doubling = true;
+  const double begin_m = next_of(*driven).T_odom_robot.x_m;
+  drive(*driven, 1.0);
+  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_NEAR(next_of(*driven).T_odom_robot.x_m - begin_m, 0.15, 0.06);
+  drive(*driven, 0.2);
+  const TimeToStand time("no order any more, packets come twice");
+  EXPECT_TRUE(time.is_short(stands()));
+}
+
+// Nothing can be said to the wheels then: the base's own watchdog stops them. They must not turn again when the cable
+// is back, with what they were ordered before.
+TEST_F(P2osRobot, ACableThatIsPulledWhileItTurnsStopsItByItsWatchdogAndForGood) {
+  const std::filesystem::path cable =
+      std::filesystem::temp_directory_path() / ("cairn_cable_" + std::to_string(::getpid()));
+  const auto lay_cable = [&] {
+    std::filesystem::remove(cable);
+    std::filesystem::create_symlink(pioneer.device(), cable);
+  };
+  lay_cable();
+  Config config;
+  config.device = cable;
+  live::LiveRobot driven(std::make_unique<Microcontroller>(config, robot()), config.stop_when, robot());
+  drive(driven, 0.5, {0.0, radians(30.0)});
+  ASSERT_EQ(pioneer.w_degps(), 30.0);
+  pioneer.unplug();
+  std::thread again([&] {
+    const auto stood_s = pioneer.wait_for_wheels(false, pioneer.watchdog_s + kStands_s);
+    EXPECT_TRUE(stood_s);
+    std::cout << "the cable is pulled while it turns: velocity 0 after " << stood_s.value_or(-1.0)
+              << " s, by its own watchdog\n";
+    pioneer.plug_in();
+    lay_cable();
+    EXPECT_FALSE(pioneer.wait_for_wheels(true, 1.5)) << "an order of before";
+  });
+  EXPECT_EQ(driven.next({}).state, SensorState::observation) << "it is connected to again";
+  again.join();
+  drive(driven, 1.0);
+  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  std::filesystem::remove(cable);
+}
+
 TEST_F(P2osRobot, BumpersAndStallsAreABump) {
   const auto driven = connected();
   for (const int word : {0x0001, 0x0100, 0x0004, 0x8000}) {
@@ -185,6 +230,56 @@ TEST_F(P2osRobot, BumpersAndStallsAreABump) {
     for (int i = 0; i < 2; ++i) (void)next_of(*driven);
     EXPECT_TRUE(next_of(*driven).bumped) << word;
   }
+}
+
+TEST_F(P2osRobot, MotorsThatAreSwitchedOffHoldItUntilAPersonSwitchesThemOn) {
+  const auto driven = connected();
+  drive(*driven, 0.5);
+  EXPECT_EQ(pioneer.enables(), 1);
+  pioneer.flags = 0;
+  EXPECT_TRUE(pioneer.wait_for_wheels(false, kStands_s));
+  for (int i = 0; i < 2; ++i) (void)next_of(*driven);
+  EXPECT_EQ(next_of(*driven).stopped_by, "its motors, which are switched off (press its MOTORS button)");
+  drive(*driven, 0.3);
+  pioneer.is_silent = true;  // for so long that it is connected to again
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  std::thread again([this] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    pioneer.is_silent = false;
+  });
+  EXPECT_NE(next_of(*driven).stopped_by, "") << "also in the next session";
+  again.join();
+  drive(*driven, 0.3);
+  EXPECT_EQ(pioneer.v_mps(), 0.0);
+  EXPECT_EQ(pioneer.enables(), 1) << "not by Cairn";
+  pioneer.flags = 1;
+  drive(*driven, 1.0);
+  EXPECT_EQ(next_of(*driven).stopped_by, "");
+  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+}
+
+TEST_F(P2osRobot, ItsEmergencyButtonHoldsIt) {
+  const auto driven = connected();
+  drive(*driven, 0.5);
+  pioneer.flags = 0x20;
+  EXPECT_TRUE(pioneer.wait_for_wheels(false, kStands_s));
+  for (int i = 0; i < 2; ++i) (void)next_of(*driven);
+  EXPECT_EQ(next_of(*driven).stopped_by, "its emergency button");
+  pioneer.flags = 0;  // released; the motors stay off
+  for (int i = 0; i < 2; ++i) (void)next_of(*driven);
+  EXPECT_THAT(next_of(*driven).stopped_by, HasSubstr("its motors, which are switched off"));
+  drive(*driven, 0.3);
+  EXPECT_EQ(pioneer.v_mps(), 0.0);
+  pioneer.flags = 1;
+  drive(*driven, 1.0);
+  EXPECT_EQ(next_of(*driven).stopped_by, "");
+  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+}
+
+TEST_F(P2osRobot, MotorsThatDoNotComeOnAreSaid) {
+  pioneer.flags = 0x20;
+  const auto driven = connected();
+  EXPECT_EQ(next_of(*driven).stopped_by, "its emergency button");
 }
 
 TEST_F(P2osRobot, ASonarThatTheFileDoesNotHaveIsAFault) {
@@ -211,6 +306,16 @@ TEST_F(P2osRobot, WhatIsNoSerialLineIsAFault) {
   config.device = "/dev/null";
   live::LiveRobot driven(std::make_unique<Microcontroller>(config, robot()), config.stop_when, robot());
   EXPECT_THAT(driven.next({}).reason, HasSubstr("/dev/null: is no serial line"));
+}
+
+// PSOS has no switch of the motors that Cairn knows of.
+TEST(P2osRobots, APioneer1SaysNothingOfItsMotors) {
+  PioneerOnATerminal old("psos1m");
+  Config config;
+  config.device = old.device();
+  live::LiveRobot driven(std::make_unique<Microcontroller>(config, robot()), config.stop_when, robot());
+  EXPECT_EQ(driven.next({}).observation.stopped_by, "");
+  EXPECT_EQ(old.enables(), 0);
 }
 
 TEST(P2osRobots, AModelThatIsNotKnownIsToldWithThoseThatAre) {

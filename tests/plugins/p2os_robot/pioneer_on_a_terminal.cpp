@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 #include "framework/live/steady_time.hpp"
 #include "plugins/p2os_robot/packet.hpp"
@@ -18,13 +19,19 @@ namespace {
 constexpr double kStep_s = 0.01;
 constexpr double kFireEvery_s = 0.04;
 constexpr int kMaxRange_counts = 5000;
+constexpr int kMotorsOn = 0x01;
+constexpr int kEmergency = 0x20;
 
 }  // namespace
 
 PioneerOnATerminal::PioneerOnATerminal(std::string subclass, std::unique_ptr<PioneerBody> body)
-    : subclass_(std::move(subclass)),
-      terminal_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)),
-      body_(std::move(body)) {
+    : subclass_(std::move(subclass)), body_(std::move(body)) {
+  open_terminal();
+  thread_ = std::jthread([this](const std::stop_token& ended) { run(ended); });
+}
+
+void PioneerOnATerminal::open_terminal() {
+  terminal_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   ::grantpt(terminal_);
   ::unlockpt(terminal_);
   device_ = ::ptsname(terminal_);
@@ -33,14 +40,22 @@ PioneerOnATerminal::PioneerOnATerminal(std::string subclass, std::unique_ptr<Pio
   ::tcgetattr(held_, &line);
   ::cfmakeraw(&line);
   ::tcsetattr(held_, TCSANOW, &line);
-  thread_ = std::jthread([this](const std::stop_token& ended) { run(ended); });
+}
+
+void PioneerOnATerminal::close_terminal() {
+  ::close(std::exchange(held_, -1));
+  ::close(std::exchange(terminal_, -1));
+}
+
+void PioneerOnATerminal::plug(bool is_in) {
+  wants_plugged_in_ = is_in;
+  while (is_plugged_in_ != is_in) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 PioneerOnATerminal::~PioneerOnATerminal() {
   thread_.request_stop();
   thread_.join();
-  ::close(held_);
-  ::close(terminal_);
+  if (is_plugged_in_) close_terminal();
 }
 
 std::optional<double> PioneerOnATerminal::wait_for_wheels(bool turning, double within_s) const {
@@ -58,13 +73,18 @@ void PioneerOnATerminal::run(const std::stop_token& ended) {
   double moved_s = live::now_s();
   while (!ended.stop_requested()) {
     std::this_thread::sleep_for(std::chrono::duration<double>(kStep_s));
+    if (is_plugged_in_ != wants_plugged_in_) {
+      wants_plugged_in_ ? open_terminal() : close_terminal();
+      is_plugged_in_ = wants_plugged_in_.load();
+    }
     std::uint8_t bytes[512];
     const ssize_t count = ::read(terminal_, bytes, sizeof bytes);
     if (count > 0) reader.take({bytes, static_cast<std::size_t>(count)});
     while (const auto data = reader.next()) obey(*data);
     const double now_s = live::now_s();
-    if (now_s - heard_s_ > watchdog_s) v_mm_ = w_deg_ = 0;
+    turn_wheels(now_s);
     body_->drive({v_mm_ / 1000.0, radians(w_deg_)}, now_s - moved_s);
+    driven_m_ = driven_m_ + v_mm_ / 1000.0 * (now_s - moved_s);
     moved_s = now_s;
     if (now_s - fired_s_ >= kFireEvery_s) {
       heard_.emplace_back(first_sonar + next_sonar_, body_->range_m(next_sonar_));
@@ -76,6 +96,12 @@ void PioneerOnATerminal::run(const std::stop_token& ended) {
       say_information();
     }
   }
+}
+
+void PioneerOnATerminal::turn_wheels(double now_s) {
+  const bool may_turn = now_s - heard_s_ <= watchdog_s && (flags & kMotorsOn) != 0;
+  v_mm_ = may_turn ? ordered_v_mm_ : 0;
+  w_deg_ = may_turn ? ordered_w_deg_ : 0;
 }
 
 void PioneerOnATerminal::obey(const std::vector<std::uint8_t>& data) {
@@ -95,10 +121,14 @@ void PioneerOnATerminal::obey(const std::vector<std::uint8_t>& data) {
   }
   if (number == 2) {
     is_in_session_ = false;
-    v_mm_ = w_deg_ = 0;
+    ordered_v_mm_ = ordered_w_deg_ = 0;
   }
-  if (number == 11) v_mm_ = value;
-  if (number == 21) w_deg_ = value;
+  if (number == 4 && value == 1) {
+    ++enables_;
+    if ((flags & kEmergency) == 0) flags |= kMotorsOn;
+  }
+  if (number == 11) ordered_v_mm_ = value;
+  if (number == 21) ordered_w_deg_ = value;
 }
 
 std::vector<std::uint8_t> PioneerOnATerminal::answer_to(int synchronisation) const {
@@ -120,7 +150,7 @@ void PioneerOnATerminal::say(const std::vector<std::uint8_t>& data) {
   packet.push_back(static_cast<std::uint8_t>(sum >> 8U));
   packet.push_back(static_cast<std::uint8_t>(sum & 0xFFU));
   ++packets_;
-  (void)!::write(terminal_, packet.data(), packet.size());
+  for (int i = 0; i < (is_doubling ? 2 : 1); ++i) (void)!::write(terminal_, packet.data(), packet.size());
 }
 
 void PioneerOnATerminal::say_information() {
@@ -136,7 +166,7 @@ void PioneerOnATerminal::say_information() {
   set(5, static_cast<int>(std::lround(pose.theta_rad / (2.0 * std::numbers::pi) * 4096.0)));
   data[11] = 125;
   set(12, stall_and_bumpers | (body_->is_bumped() ? 0x0202 : 0));
-  data[16] = 1;
+  data[16] = static_cast<std::uint8_t>(flags);
   data[19] = static_cast<std::uint8_t>(heard_.size());
   for (const auto& [sonar, range_m] : heard_) {
     const int counts = static_cast<int>(std::min(1000.0 * range_m, double{kMaxRange_counts}));

@@ -250,6 +250,24 @@ TEST(InitialPose, IsWhereTheRobotBegins) {
   EXPECT_EQ(*start, (Pose2{4.0, 5.0, 0.0}));
 }
 
+TEST(InitialPose, IsSaidToBeWaitedForAndTheWaitCanBeCancelled) {
+  RobotModel robot;
+  robot.sonars.resize(1);
+  const Config config = config_with_start(600.0);
+  std::atomic<bool> cancel = false;
+  const live::LiveRobot driven(link_to(config, robot, Budget{.cancel = &cancel}), config.stop_when, robot);
+  EXPECT_EQ(driven.waits_for(), "");
+  std::thread canceller([&] {
+    EXPECT_TRUE(comes_true([&] { return !driven.waits_for().empty(); }));
+    EXPECT_THAT(driven.waits_for(), HasSubstr("waiting for a pose on /initialpose in the frame map of ROS domain "));
+    EXPECT_THAT(driven.waits_for(), HasSubstr(", 600 s at most"));
+    cancel = true;
+  });
+  EXPECT_FALSE(driven.start());
+  canceller.join();
+  EXPECT_EQ(driven.waits_for(), "");
+}
+
 TEST(InitialPose, ThatNobodyGivesIsAFault) {
   RobotModel robot;
   robot.sonars.resize(1);

@@ -45,7 +45,9 @@ class RosBase {
   std::atomic<bool> is_silent{false};
   std::atomic<double> v_mps{0.0};
   std::atomic<int> heard{0};
-  std::atomic<double> offset_s{0.0};  // of its clock
+  std::atomic<double> offset_s{0.0};       // of its clock
+  std::atomic<bool> is_doubling{false};    // each odometry comes twice
+  std::atomic<bool> is_reordering{false};  // and the one before comes once more
 
   void set_emergency(bool is_on) const {
     const Bool message{is_on};
@@ -64,6 +66,10 @@ class RosBase {
   }
   void run(const std::stop_token& ended) {
     int tick = 0;
+    struct {
+      decltype(Range::header.stamp) stamp;
+      double x_m;
+    } before{time_of(1000.0), 0.0};
     while (!ended.stop_requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       const auto take = [this](const TwistMessage& twist) {
@@ -90,6 +96,13 @@ class RosBase {
       odometry.pose.pose.position.x = x_m_;
       odometry.pose.pose.orientation.w = 1.0;
       (void)dds_write(odometry_.get(), &odometry);
+      if (is_doubling) (void)dds_write(odometry_.get(), &odometry);
+      if (is_reordering) {
+        odometry.header.stamp = before.stamp;
+        odometry.pose.pose.position.x = before.x_m;
+        (void)dds_write(odometry_.get(), &odometry);
+      }
+      before = {range.header.stamp, x_m_};
       ++tick;
     }
   }
@@ -219,6 +232,27 @@ TEST(Ros2Robot, WithoutItsGuardItDoesNotDrive) {
   const SensorStep step = driven.next({});
   EXPECT_EQ(step.state, SensorState::fault);
   EXPECT_THAT(step.reason, HasSubstr("/nowhere/ros2_guard, which guards the wheels, is no program"));
+}
+
+TEST(Ros2Robot, OdometryThatComesTwiceOrInAnotherOrderChangesNothing) {
+  for (const bool is_reordering : {false, true}) {
+    RosBase base;
+    (is_reordering ? base.is_reordering : base.is_doubling) = true;
+    const auto driven = connected();
+    Observation last = driven->next({}).observation;
+    for (const double begin_s = live::now_s(); live::now_s() - begin_s < 1.5;) {
+      const SensorStep step = driven->next({});
+      ASSERT_EQ(step.state, SensorState::observation) << step.reason;
+      EXPECT_GE(step.observation.stamp_s, last.stamp_s);
+      EXPECT_GE(step.observation.T_odom_robot.x_m, last.T_odom_robot.x_m - 1e-9);
+      last = step.observation;
+      driven->drive()->command({0.2, 0.0}, 0.3);
+    }
+    EXPECT_NEAR(base.v_mps, 0.2, 1e-9);
+    const TimeToStand time(is_reordering ? "no order any more, odometry in another order"
+                                         : "no order any more, odometry comes twice");
+    EXPECT_TRUE(time.is_short(stands(base)));
+  }
 }
 
 TEST(Ros2Robot, GoesOnWhenTheBasesClockIsSet) {

@@ -42,6 +42,29 @@ TEST(AbsentRobot, OnARosNetworkIsNamedByTopicAndDomain) {
   EXPECT_THAT(finished.err, HasSubstr("waiting for /odom in ROS domain 149, 1.2 s at most"));
   EXPECT_THAT(finished.out, HasSubstr("nobody publishes anything in domain 149"));
 }
+
+std::string with_initial_pose(double wait_s) {
+  return "plugin: ros2_robot, domain: 148, network: localhost, ranges: [{topic: /sonar}], initial_pose: {topic: "
+         "/initialpose, wait_s: " +
+         std::to_string(wait_s) + "}";
+}
+
+TEST(AbsentRobot, ItsFirstPoseIsNamedByTopicFrameAndDomain) {
+  const Finished finished = run_of("absent_pose", with_initial_pose(1.0));
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err,
+              AllOf(HasSubstr("waiting for a pose on /initialpose in the frame map of ROS domain 148, 1 s at "
+                              "most"),
+                    HasSubstr("nobody has given a pose on /initialpose in the frame map for 1 s")));
+}
+
+TEST(AbsentRobot, TheWaitForItsFirstPoseEndsWithCtrlC) {
+  const auto mission = doctor_mission("absent_pose_cancelled", with_initial_pose(600.0));
+  const Finished finished =
+      interrupt_cairn({"run", mission.string(), "--out", (mission.parent_path() / "out").string()});
+  EXPECT_EQ(finished.exit_status, 1) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("cancelled by the user"));
+}
 #endif
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/plugins/ros2_robot/network_robot.hpp"
@@ -43,6 +44,42 @@ TEST(DoctorRos2, SaysTypeQualityRateAgeFrameAndClockOfEachTopicAndWhoListens) {
   EXPECT_TRUE(said["ok"]);
   EXPECT_EQ(said["findings"][2]["what"], "/odom");
   EXPECT_EQ(said["findings"][2]["values"]["type"], "nav_msgs/msg/Odometry");
+}
+
+// A variable of the environment of the programs that are started.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+  ~Variable() { ::unsetenv(name_); }
+
+ private:
+  const char* name_;
+};
+
+TEST(DoctorRos2, SaysWhatTheEnvironmentSaid) {
+  const ros2_robot::NetworkRobot robot(looked_at_domain());
+  const ros2_robot::Entity listener = robot.participant().reader("/cmd_vel", geometry_msgs_msg_dds__Twist__desc);
+  const Variable domain("ROS_DOMAIN_ID", std::to_string(looked_at_domain()));
+  const Variable local("ROS_LOCALHOST_ONLY", "1");
+  const auto mission = doctor_mission("doctor_ros2_environment", "plugin: ros2_robot, ranges: [{topic: /sonar}]");
+  const Finished finished = run_cairn({"doctor", "live", mission.string(), "--for", "1.5"});
+  EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("published /odom, /sonar; environment ROS_DOMAIN_ID=" +
+                                      std::to_string(looked_at_domain()) + ", ROS_LOCALHOST_ONLY=1\n"));
+}
+
+TEST(DoctorRos2, AVariableThatCannotBeIsAnErrorThatNamesIt) {
+  const Variable domain("ROS_DOMAIN_ID", "300");
+  const auto open = doctor_mission("doctor_ros2_variable", "plugin: ros2_robot, ranges: [{topic: /sonar}]");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"doctor", "live", open.string()},
+        {"run", open.string(), "--out", (open.parent_path() / "out").string()}}) {
+    const Finished finished = run_cairn(command);
+    EXPECT_EQ(finished.exit_status, 2) << finished.out;
+    EXPECT_THAT(finished.err, HasSubstr("the environment variable ROS_DOMAIN_ID is \"300\": a domain is a number"));
+  }
 }
 
 TEST(DoctorRos2, NamesWhatIsWrong) {

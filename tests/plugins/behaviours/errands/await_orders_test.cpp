@@ -50,6 +50,22 @@ TEST_F(AwaitOrdersTest, StandsUntilAnOrderComes) {
   EXPECT_EQ(tick().reason, "waiting for orders");
 }
 
+TEST_F(AwaitOrdersTest, TakesOrdersWhileTheRobotIsStoppedAndCarriesThemOutAfterwards) {
+  host_.observe = [](const FakeHost& host) {
+    Observation seen;
+    if (host.time_s < 60.0) seen.stopped_by = "the red button";
+    return seen;
+  };
+  order("goto", "[2.1, 0.6]");
+  EXPECT_THAT(tick().reason, HasSubstr("waits: the robot is stopped by the red button"));
+  EXPECT_EQ(host_.answers.at(0).state, StepState::success);
+  const Pose2 before = host_.T_map_robot;
+  EXPECT_EQ(host_.run(step_, 50.0).state, StepState::running);
+  EXPECT_EQ(host_.T_map_robot, before);
+  EXPECT_EQ(host_.run(step_, 60.0).state, StepState::running);
+  EXPECT_LT(to(2.1, 0.6), 0.25) << host_.picture();
+}
+
 TEST_F(AwaitOrdersTest, GoesToThePlaceThatIsOrderedAndWaitsAgain) {
   order("goto", "[2.1, 0.6]");
   EXPECT_THAT(tick().reason, HasSubstr("order {goto: [2.1, 0.6]}: "));

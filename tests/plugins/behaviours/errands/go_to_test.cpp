@@ -257,11 +257,21 @@ TEST(GoTo, AnswersToAPairAsToAPlaceOfTheMap) {
   EXPECT_EQ(host.run(there, 60.0).state, StepState::success) << "again after a halt";
 }
 
+TEST(GoTo, ReadsAPlaceThatIsWrittenAsText) {
+  for (const char* place : {"'1.0,0.5'", "1.0, 0.5", "'[1, 0.5]'", "{landmark: '1,0.5'}"}) {
+    FakeHost host(kRoom, kKnown);
+    GoTo go(config_of<GoToConfig>(place), 1);
+    const Status status = host.run(go, 60.0);
+    EXPECT_EQ(status.state, StepState::success) << status.reason;
+    EXPECT_LT((host.T_map_robot.position() - Point{1.0, 0.5}).norm(), 0.1 + 1e-9) << place;
+  }
+}
+
 TEST(GoTo, SaysHowAPlaceIsWritten) {
   EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("[1, 2, 3]"), 1); }),
             "mission.yaml:1:1: goto must be a point [x, y], found a list of 3");
-  EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("'2.0, 1.0'"), 1); }),
-            "mission.yaml:1:1: landmark: a place is written [x, y], found the text \"2.0, 1.0\"");
+  EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("'1,2,90'"), 1); }),
+            "mission.yaml:1:1: goto must be a point [x, y], found a list of 3");
   EXPECT_EQ(error_of([] { GoTo(config_of<GoToConfig>("{landmark: [1, 2], at_m: [1, 2]}"), 1); }),
             "mission.yaml:1:12: goto: landmark and at_m exclude each other");
 }

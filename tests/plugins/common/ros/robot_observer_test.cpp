@@ -88,6 +88,18 @@ TEST(RobotObserver, OdometryThatIsNoPoseIsHeardAndLeftOut) {
   EXPECT_EQ(watched.observer.heard().find("/odom")->messages, 1U);
 }
 
+TEST(RobotObserver, OdometryThatComesAfterALaterOneIsLeftOut) {
+  Watched watched;
+  const double first_s = watched.odometry(10.0, 0.0)->stamp_s;
+  EXPECT_TRUE(watched.odometry(10.1, 0.1));
+  EXPECT_FALSE(watched.odometry(10.05, 0.05));
+  EXPECT_EQ(watched.odometry(10.1, 0.1)->stamp_s, watched.odometry(10.1, 0.1)->stamp_s) << "twice the same";
+  const auto next = watched.odometry(10.2, 0.2);
+  EXPECT_NEAR(next->stamp_s - first_s, 0.2, 1e-9);
+  EXPECT_NEAR(next->T_odom_robot.x_m, 0.2, 1e-9);
+  EXPECT_TRUE(watched.odometry(3.0, 0.3)) << "the clock was set";
+}
+
 TEST(RobotObserver, AFrameThatTheSettingsDoNotNameIsAFault) {
   Watched watched;
   try {
