@@ -1,9 +1,11 @@
-// A Pioneer 3-DX in a world of Enki, on a ROS 2 network by Fast DDS, on this computer only, in wall-clock time:
-//     enki_ros2 DOMAIN LOG LATENCIES
-// Publishes /odom every 70 ms, and on /sonar a Range of the next of its sonars every 40 ms (frames sonar_0 to
-// sonar_15); obeys a Twist on /cmd_vel, for two seconds. LOG: tests/enki/enki_world.hpp. LATENCIES: the milliseconds
-// from each odometry to the first velocity after it, if that comes before the next. Cairn repeats a velocity after 50
-// ms, before the next odometry: a velocity within 30 ms is the answer.
+// The robot and the world of a mission in Enki, on a ROS 2 network by Fast DDS, on this computer only, in wall-clock
+// time:
+//     enki_ros2 MISSION DOMAIN LOG LATENCIES [KEY=VALUE...]
+// Publishes /odom every 70 ms, and on /sonar a Range of the next of its sonars every 40 ms (frames sonar_0, sonar_1,
+// ...); obeys a Twist on /cmd_vel, for two seconds. LOG: tests/enki/enki_world.hpp; KEY=VALUE: as with
+// `cairn run --set`. LATENCIES: the milliseconds from each odometry to the first velocity after it, if that comes
+// before the next. Cairn repeats a velocity after 50 ms, before the next odometry: a velocity within 30 ms is the
+// answer.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -52,8 +54,8 @@ bool is_due(double& last_s, double every_s, double now_s) {
 
 class RosPioneer {
  public:
-  RosPioneer(int domain, const std::string& log, const std::string& latencies)
-      : body_(cairn::enki::pioneer_in_two_rooms(log)),
+  RosPioneer(const cairn::Mission& mission, int domain, const std::string& log, const std::string& latencies)
+      : body_(cairn::enki::robot_in_its_world(mission, log)),
         network_(domain),
         odometry_(network_.writer("/odom", "nav_msgs::msg::dds_::Odometry_")),
         sonar_(network_.writer("/sonar", "sensor_msgs::msg::dds_::Range_", Offer{false, false})),
@@ -114,16 +116,21 @@ class RosPioneer {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::cerr << "enki_ros2 DOMAIN LOG LATENCIES\n";
+  if (argc < 5) {
+    std::cerr << "enki_ros2 MISSION DOMAIN LOG LATENCIES [KEY=VALUE...]\n";
     return 2;
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_ended = true; });
-  RosPioneer pioneer(std::stoi(argv[1]), argv[2], argv[3]);
-  std::cout << "a Pioneer 3-DX in the ROS domain " << argv[1] << "\n" << std::flush;
-  while (!is_ended) {
-    pioneer.step();
-    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  try {
+    RosPioneer pioneer(cairn::load_mission(argv[1], {argv + 5, argv + argc}), std::stoi(argv[2]), argv[3], argv[4]);
+    std::cout << "a Pioneer 3-DX in the ROS domain " << argv[2] << "\n" << std::flush;
+    while (!is_ended) {
+      pioneer.step();
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  } catch (const std::exception& fault) {
+    std::cerr << "enki_ros2: " << fault.what() << "\n";
+    return 1;
   }
   return 0;
 }
