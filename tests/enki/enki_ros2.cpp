@@ -3,9 +3,9 @@
 //     enki_ros2 MISSION DOMAIN LOG LATENCIES [KEY=VALUE...]
 // Publishes /odom every 70 ms, and on /sonar a Range of the next of its sonars every 40 ms (frames sonar_0, sonar_1,
 // ...); obeys a Twist on /cmd_vel, for two seconds. LOG: tests/enki/enki_world.hpp; KEY=VALUE: as with
-// `cairn run --set`. LATENCIES: the milliseconds from each odometry to the first velocity after it, if that comes
-// before the next. Cairn repeats a velocity after 50 ms, before the next odometry: a velocity within 30 ms is the
-// answer.
+// `cairn run --set`. LATENCIES: lines `odometry,MS`, from each odometry to the first velocity after it, if that comes
+// before the next, and `range,MS`, from each Range that was sent before that odometry to the same velocity. Cairn
+// repeats a velocity after 50 ms, before the next odometry: a velocity within 30 ms is the answer.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -17,6 +17,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "framework/live/steady_time.hpp"
 #include "tests/enki/enki_world.hpp"
@@ -78,15 +79,24 @@ class RosPioneer {
       cairn::fast_dds::read_all(std::move(message), [&](Cdr& from) { from >> numbers; });
       twist_ = {numbers[0], numbers[5]};
       commanded_s_ = now_s;
-      if (!is_answered_) latencies_ << 1000.0 * (now_s - published_s_) << "\n" << std::flush;
+      if (!is_answered_) write_latencies(now_s);
       is_answered_ = true;
     }
+  }
+  void write_latencies(double now_s) {
+    latencies_ << "odometry," << 1000.0 * (now_s - published_s_) << "\n";
+    const auto later = std::find_if(ranges_s_.begin(), ranges_s_.end(), [&](double s) { return s > published_s_; });
+    for (auto sent_s = ranges_s_.begin(); sent_s != later; ++sent_s)
+      latencies_ << "range," << 1000.0 * (now_s - *sent_s) << "\n";
+    latencies_ << std::flush;
+    ranges_s_.erase(ranges_s_.begin(), later);
   }
   void fire() {
     const auto range_m = static_cast<float>(body_->range_m(next_));
     sonar_->write(cairn::fast_dds::written(
         [&](Cdr& to) { cairn::fast_dds::write_range(to, stamped_now("sonar_" + std::to_string(next_)), range_m); }));
     next_ = (next_ + 1) % body_->sonars();
+    ranges_s_.push_back(cairn::live::now_s());
   }
   void publish_odometry() {
     const Pose2 pose = body_->odometry();
@@ -111,6 +121,7 @@ class RosPioneer {
   double published_s_ = 0.0;
   int next_ = 0;
   bool is_answered_ = true;
+  std::vector<double> ranges_s_;  // when those were sent that no velocity has answered
 };
 
 }  // namespace
