@@ -87,5 +87,13 @@ TEST_F(EnkiMission, ExploresTwoRoomsAndComesHomeOnARos2Network) {
   expect_both_rooms_the_landmarks_and_home("enki_ros2", {"sensor.domain=" + domain_});
 }
 
+// With a world to hold landmarks against, but no robot there: nobody is waited for.
+TEST(EnkiMissions, AreCheckedWithoutARobot) {
+  for (const std::string name : {"enki_pioneer", "enki_ros2"}) {
+    const Finished finished = run_cairn({"mission", "check", source_folder() + "/config/missions/" + name + ".yaml"});
+    EXPECT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+  }
+}
+
 }  // namespace
 }  // namespace cairn::testing_program
