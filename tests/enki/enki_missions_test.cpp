@@ -57,10 +57,26 @@ class EnkiMission : public EnkiRobot {
     EXPECT_EQ(score.missed_objects, 0) << said_;
     expect_home(mission.config.start.at_m);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "map.png"));
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / (name + ".log.gz")));
+    expect_the_recording_to_give(map, mission, folder_ / "out" / (name + ".log.gz"));
   }
 
  private:
+  // Bit for bit, with the same settings of what makes maps.
+  void expect_the_recording_to_give(const SavedMap& map, const Mission& mission, const std::filesystem::path& log) {
+    const Point start_m = mission.config.start.at_m;
+    write_text(folder_ / "replay.yaml",
+               "mission: replay\nrobot: " + mission.config.robot.string() + "\nstart: {at_m: [" +
+                   std::to_string(start_m.x()) + ", " + std::to_string(start_m.y()) +
+                   "], angle_deg: 0}\nsensor: {plugin: carmen_log, file: " + log.string() +
+                   "}\nlocalizer: {plugin: odometry_compass}\nmap: {plugin: muriel, cell_m: 0.05}\n"
+                   "detector: {plugin: template_matcher, templates: " +
+                   source_folder() + "/config/templates, coarse_cells: 5}\n");
+    const Finished finished = run_cairn({"run", (folder_ / "replay.yaml").string(), "--out", folder_.string()});
+    ASSERT_EQ(finished.exit_status, 0) << finished.out << finished.err;
+    const SavedMap replayed = load_map(folder_ / "replay.cairn");
+    EXPECT_TRUE(replayed.grid == map.grid) << finished.out;
+    EXPECT_EQ(replayed.graph.landmarks().size(), map.graph.landmarks().size()) << finished.out;
+  }
   // By Enki's own account, standing, and never having touched anything.
   void expect_home(const Point& start_m) {
     const std::vector<EnkiTick> all = ticks();
