@@ -102,9 +102,10 @@ void check_has_steps(const MissionConfig& config, const std::vector<TreeNode>& s
                                                     " drives: say under `steps` what is to be done");
 }
 
-// A simulated robot knows at once whether it can stand where the mission puts it.
+// A simulated robot knows at once whether it can stand where the mission puts it. A live one, whose mission may have a
+// world to hold its landmarks against, is not connected to for that.
 void check_can_start(const Mission& mission, Sensor& sensor) {
-  if (!mission.world) return;
+  if (!mission.world || fenced("sensor", mission.config.sensor.name, [&] { return sensor.truth(); }) == nullptr) return;
   const SensorStep step = fenced("sensor", mission.config.sensor.name, [&] { return sensor.next(Budget{}); });
   if (step.state == SensorState::fault) throw ConfigError(mission.start_place, step.reason);
 }

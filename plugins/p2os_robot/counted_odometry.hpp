@@ -14,7 +14,8 @@ class CountedOdometry {
   // max_step_m: farther than that the robot does not get between two packets.
   CountedOdometry(const Units& units, double max_step_m) : units_(units), max_step_m_(max_step_m) {}
 
-  // The counts begin anew, wherever they do: the robot stands where it was last seen.
+  // After a gap the counts either go on, and what was driven meanwhile is in them, or they begin anew: then the robot
+  // stands where it was last seen. They have begun anew when they are all zero, or far from where they were.
   void begin_session(const Units& units);
   // In the frame of the very first one: metres, radians.
   [[nodiscard]] Pose2 pose_at(const Information& seen);
@@ -25,10 +26,12 @@ class CountedOdometry {
     int y = 0;
   };
   [[nodiscard]] double step_m(int from_counts, int to_counts) const;
+  [[nodiscard]] bool counts_anew(const Information& seen) const;
 
   Units units_;
   double max_step_m_;
   std::optional<Counts> last_;
+  bool is_after_gap_ = false;
   Point position_m_ = Point::Zero();  // since the session began, in the robot's own frame
   Pose2 T_odom_session_;              // the session's frame in that of all
   Pose2 pose_;

@@ -1,9 +1,11 @@
-// A Pioneer 3-DX in a world of Enki, on a ROS 2 network by Fast DDS, on this computer only, in wall-clock time:
-//     enki_ros2 DOMAIN LOG LATENCIES
-// Publishes /odom every 70 ms, and on /sonar a Range of the next of its sonars every 40 ms (frames sonar_0 to
-// sonar_15); obeys a Twist on /cmd_vel, for two seconds. LOG: tests/enki/enki_world.hpp. LATENCIES: the milliseconds
-// from each odometry to the first velocity after it, if that comes before the next. Cairn repeats a velocity after 50
-// ms, before the next odometry: a velocity within 30 ms is the answer.
+// The robot and the world of a mission in Enki, on a ROS 2 network by Fast DDS, on this computer only, in wall-clock
+// time:
+//     enki_ros2 MISSION DOMAIN LOG LATENCIES [KEY=VALUE...]
+// Publishes /odom every 70 ms, and on /sonar a Range of the next of its sonars every 40 ms (frames sonar_0, sonar_1,
+// ...); obeys a Twist on /cmd_vel, for two seconds. LOG: tests/enki/enki_world.hpp; KEY=VALUE: as with
+// `cairn run --set`. LATENCIES: lines `odometry,MS`, from each odometry to the first velocity after it, if that comes
+// before the next, and `range,MS`, from each Range that was sent before that odometry to the same velocity. Cairn
+// repeats a velocity after 50 ms, before the next odometry: a velocity within 30 ms is the answer.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,6 +17,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "framework/live/steady_time.hpp"
 #include "tests/enki/enki_world.hpp"
@@ -52,8 +55,8 @@ bool is_due(double& last_s, double every_s, double now_s) {
 
 class RosPioneer {
  public:
-  RosPioneer(int domain, const std::string& log, const std::string& latencies)
-      : body_(cairn::enki::pioneer_in_two_rooms(log)),
+  RosPioneer(const cairn::Mission& mission, int domain, const std::string& log, const std::string& latencies)
+      : body_(cairn::enki::robot_in_its_world(mission, log)),
         network_(domain),
         odometry_(network_.writer("/odom", "nav_msgs::msg::dds_::Odometry_")),
         sonar_(network_.writer("/sonar", "sensor_msgs::msg::dds_::Range_", Offer{false, false})),
@@ -76,15 +79,24 @@ class RosPioneer {
       cairn::fast_dds::read_all(std::move(message), [&](Cdr& from) { from >> numbers; });
       twist_ = {numbers[0], numbers[5]};
       commanded_s_ = now_s;
-      if (!is_answered_) latencies_ << 1000.0 * (now_s - published_s_) << "\n" << std::flush;
+      if (!is_answered_) write_latencies(now_s);
       is_answered_ = true;
     }
+  }
+  void write_latencies(double now_s) {
+    latencies_ << "odometry," << 1000.0 * (now_s - published_s_) << "\n";
+    const auto later = std::find_if(ranges_s_.begin(), ranges_s_.end(), [&](double s) { return s > published_s_; });
+    for (auto sent_s = ranges_s_.begin(); sent_s != later; ++sent_s)
+      latencies_ << "range," << 1000.0 * (now_s - *sent_s) << "\n";
+    latencies_ << std::flush;
+    ranges_s_.erase(ranges_s_.begin(), later);
   }
   void fire() {
     const auto range_m = static_cast<float>(body_->range_m(next_));
     sonar_->write(cairn::fast_dds::written(
         [&](Cdr& to) { cairn::fast_dds::write_range(to, stamped_now("sonar_" + std::to_string(next_)), range_m); }));
     next_ = (next_ + 1) % body_->sonars();
+    ranges_s_.push_back(cairn::live::now_s());
   }
   void publish_odometry() {
     const Pose2 pose = body_->odometry();
@@ -109,21 +121,27 @@ class RosPioneer {
   double published_s_ = 0.0;
   int next_ = 0;
   bool is_answered_ = true;
+  std::vector<double> ranges_s_;  // when those were sent that no velocity has answered
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::cerr << "enki_ros2 DOMAIN LOG LATENCIES\n";
+  if (argc < 5) {
+    std::cerr << "enki_ros2 MISSION DOMAIN LOG LATENCIES [KEY=VALUE...]\n";
     return 2;
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_ended = true; });
-  RosPioneer pioneer(std::stoi(argv[1]), argv[2], argv[3]);
-  std::cout << "a Pioneer 3-DX in the ROS domain " << argv[1] << "\n" << std::flush;
-  while (!is_ended) {
-    pioneer.step();
-    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  try {
+    RosPioneer pioneer(cairn::load_mission(argv[1], {argv + 5, argv + argc}), std::stoi(argv[2]), argv[3], argv[4]);
+    std::cout << "a Pioneer 3-DX in the ROS domain " << argv[2] << "\n" << std::flush;
+    while (!is_ended) {
+      pioneer.step();
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  } catch (const std::exception& fault) {
+    std::cerr << "enki_ros2: " << fault.what() << "\n";
+    return 1;
   }
   return 0;
 }

@@ -55,5 +55,25 @@ TEST_F(Odometry, ARobotThatCountsAnewStandsWhereItWasLastSeen) {
   EXPECT_NEAR(on.y_m, 0.1, 1e-9) << "ahead is where it looked";
 }
 
+TEST_F(Odometry, WhatWasDrivenInAGapIsInCountsThatGoOn) {
+  (void)odometry.pose_at(at(500, 100, 1024));
+  (void)odometry.pose_at(at(500, 400, 1024));
+  odometry.begin_session(*units_of("p3dx-sh"));
+  const Pose2 after = odometry.pose_at(at(460, 700, 2048));
+  EXPECT_NEAR(after.x_m, 0.6, 1e-9) << "ahead is where it looked first";
+  EXPECT_NEAR(after.y_m, 0.04, 1e-9);
+  EXPECT_NEAR(after.theta_rad, std::numbers::pi / 2, 1e-9);
+}
+
+TEST_F(Odometry, CountsThatAreFarFromWhereTheyWereBeginAnew) {
+  (void)odometry.pose_at(at(0, 0, 0));
+  const Pose2 before = odometry.pose_at(at(300, 0, 1024));
+  odometry.begin_session(*units_of("p3dx-sh"));
+  const Pose2 after = odometry.pose_at(at(9000, 0, 77));
+  EXPECT_NEAR(after.x_m, before.x_m, 1e-9);
+  EXPECT_NEAR(after.y_m, before.y_m, 1e-9);
+  EXPECT_NEAR(after.theta_rad, before.theta_rad, 1e-9);
+}
+
 }  // namespace
 }  // namespace cairn::p2os_robot
