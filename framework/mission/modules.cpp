@@ -128,9 +128,10 @@ std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const Module
 std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
   // The first modules of a kind lie side by side, the kinds one behind the other; the rest lie behind all kinds.
   constexpr std::uint64_t kSideBySide = 101;
+  constexpr std::uint64_t kKinds = 9;  // as many as there were first: seeds stay when kinds are added
   const std::uint64_t row = index / kSideBySide;
   return mixed_seed(static_cast<std::uint64_t>(mission_seed) * 1000003U +
-                    (static_cast<std::uint64_t>(kind) + row * std::size(kPluginKinds)) * kSideBySide +
+                    (static_cast<std::uint64_t>(kind) + row * kKinds) * kSideBySide +
                     index % kSideBySide);
 }
 

@@ -6,7 +6,7 @@
 
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
-#include "plugins/simulated_robot/camera/lens.hpp"
+#include "plugins/common/camera/lens.hpp"
 #include "plugins/simulated_robot/camera/tag_pattern.hpp"
 #include "plugins/simulated_robot/surroundings/scene.hpp"
 
