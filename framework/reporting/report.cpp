@@ -44,6 +44,7 @@ ordered_json json_of(const Landmark& landmark) {
                             {"templates", templates},
                             {"evidence", evidence}};
   if (!landmark.name.empty()) described["name"] = landmark.name;
+  if (landmark.marker) described["marker"] = text_of(*landmark.marker);
   if (const auto close = close_categories(landmark))
     described["close_to"] = {
         {"category", close->other}, {"degree", rounded(close->other_degree)}, {"own_degree", rounded(close->degree)}};
@@ -310,6 +311,7 @@ TruthScore score_against(const World& world, const LandmarkGraph& graph, double 
   TruthScore score;
   std::vector<bool> found(world.objects.size(), false);
   for (const auto& [id, landmark] : graph.landmarks()) {
+    if (landmark.marker) continue;
     std::size_t best = world.objects.size();
     double best_error = tolerance_m;
     for (std::size_t i = 0; i < world.objects.size(); ++i) {
