@@ -79,7 +79,22 @@ OdometryCompass::OdometryCompass(const Config& config, const RobotModel& robot, 
       landmark_sightings_({shapes.begin(), shapes.end()}) {}
 
 PoseEstimate OdometryCompass::update(const Observation& observation, const KnownMap& known) {
-  return update_by(observation, see_again(observation, known));
+  return follow_markers(observation, known, update_by(observation, see_again(observation, known)));
+}
+
+PoseEstimate OdometryCompass::follow_markers(const Observation& observation, const KnownMap& known,
+                                             const PoseEstimate& before) {
+  if (!config_.use_landmarks) return before;
+  int used = 0;
+  int refused = 0;
+  for (const LandmarkSighting& sighting : marker_sightings_.look(observation, before, known))
+    ++(follow_landmark(sighting) ? used : refused);
+  if (used + refused == 0) return before;
+  witnesses_ += used;
+  PoseEstimate estimate = filter_.estimate();
+  estimate.sightings_used = before.sightings_used + used;
+  estimate.sightings_refused = before.sightings_refused + refused;
+  return estimate;
 }
 
 // Of the first observation nothing says where the odometry begins.

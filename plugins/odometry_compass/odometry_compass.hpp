@@ -15,7 +15,7 @@
 //   no compass in the robot's file    its readings are not used
 //   landmark beyond the gate          refused (the wrong landmark, most likely)
 //   landmark further than 1000 km     refused
-// Walls come after the compass, landmarks after walls.
+// Walls come after the compass, landmarks after walls, printed markers last.
 #pragma once
 
 #include <optional>
@@ -26,6 +26,7 @@
 #include "plugins/odometry_compass/compass_trust.hpp"
 #include "plugins/odometry_compass/config.hpp"
 #include "plugins/odometry_compass/landmark_sightings.hpp"
+#include "plugins/odometry_compass/marker_sightings.hpp"
 #include "plugins/odometry_compass/pose_filter.hpp"
 #include "plugins/odometry_compass/wall_finder.hpp"
 
@@ -57,6 +58,9 @@ class OdometryCompass final : public Localizer {
   [[nodiscard]] bool has_witness() const { return witnesses_ >= kWitnesses; }
   [[nodiscard]] bool could_slip(double turned_rad) const;
   [[nodiscard]] std::span<const LandmarkSighting> see_again(const Observation& observation, const KnownMap& known);
+  // before: without the markers.
+  [[nodiscard]] PoseEstimate follow_markers(const Observation& observation, const KnownMap& known,
+                                            const PoseEstimate& before);
   int follow_walls(const Observation& observation);
   bool follow_landmark(const LandmarkSighting& sighting);
   [[nodiscard]] bool correct_by(const LandmarkSighting& sighting);
@@ -72,6 +76,7 @@ class OdometryCompass final : public Localizer {
   PoseFilter filter_;
   WallFinder wall_finder_;
   LandmarkSightings landmark_sightings_;
+  MarkerSightings marker_sightings_;
   std::optional<Pose2> T_odom_robot_;      // the last good one
   Pose2 last_step_;                        // as odometry saw it
   std::optional<double> compass_rad_;      // the last reading

@@ -33,6 +33,7 @@ class Picture {
   void draw_surroundings(const Pose2& T_map_camera);
   void draw_tag(const WorldTag& tag, const TagPattern& pattern, const Pose2& T_map_robot);
   [[nodiscard]] float tag_light(const HungTag& hung, std::size_t pixel) const;
+  [[nodiscard]] float tag_light(const HungTag& hung, std::size_t pixel, int row, int column) const;
   [[nodiscard]] Box box_of(const WorldTag& tag, const Pose2& T_robot_tag, double half_m) const;
   [[nodiscard]] std::size_t ray_at(double bearing_rad) const;
 
