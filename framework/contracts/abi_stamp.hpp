@@ -11,6 +11,7 @@
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/mapper.hpp"
+#include "framework/contracts/marker_detector.hpp"
 #include "framework/contracts/path_planner.hpp"
 #include "framework/contracts/planner.hpp"
 #include "framework/contracts/registrar.hpp"
@@ -34,7 +35,7 @@ struct AbiStamp {
 };
 
 // Raised whenever the signature of an interface or an exchanged type changes: sizes need not show that.
-inline constexpr std::uint32_t kContractsVersion = 7;
+inline constexpr std::uint32_t kContractsVersion = 8;
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
 
 namespace abi_detail {

@@ -24,6 +24,8 @@ std::string_view name_of(PluginKind kind) {
       return "route_planner";
     case PluginKind::controller:
       return "controller";
+    case PluginKind::marker_detector:
+      return "marker_detector";
   }
   return "?";
 }

@@ -2,35 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <compare>
-#include <cstdint>
 #include <optional>
-#include <string_view>
 
 #include "maps/geometry/pose.hpp"
+#include "maps/landmarks/marker_id.hpp"
 
 namespace cairn {
-
-enum class MarkerFamily : std::uint8_t { tag36h11, tag25h9, tagStandard41h12 };
-// As robot files, worlds and missions write it.
-[[nodiscard]] constexpr std::string_view name_of(MarkerFamily family) {
-  switch (family) {
-    case MarkerFamily::tag36h11:
-      return "36h11";
-    case MarkerFamily::tag25h9:
-      return "25h9";
-    case MarkerFamily::tagStandard41h12:
-      return "standard41h12";
-  }
-  return "?";
-}
-
-// Numbers are unique within a family only.
-struct MarkerId {
-  MarkerFamily family = MarkerFamily::tag36h11;
-  int number = 0;
-  auto operator<=>(const MarkerId&) const = default;
-};
 
 // Where a marker stands by one picture. It hangs upright: theta_rad is the direction that its printed side faces.
 struct MarkerPose {

@@ -7,12 +7,23 @@
 namespace cairn {
 
 // In the order in which they were added: seeds of modules are counted by it.
-enum class PluginKind { sensor, localizer, map, detector, planner, behaviour, path_planner, route_planner, controller };
+enum class PluginKind {
+  sensor,
+  localizer,
+  map,
+  detector,
+  planner,
+  behaviour,
+  path_planner,
+  route_planner,
+  controller,
+  marker_detector
+};
 // In the order in which people read them.
 inline constexpr PluginKind kPluginKinds[] = {
-    PluginKind::sensor,        PluginKind::localizer,  PluginKind::map,
-    PluginKind::detector,      PluginKind::planner,    PluginKind::path_planner,
-    PluginKind::route_planner, PluginKind::controller, PluginKind::behaviour,
+    PluginKind::sensor,          PluginKind::localizer, PluginKind::map,          PluginKind::detector,
+    PluginKind::marker_detector, PluginKind::planner,   PluginKind::path_planner, PluginKind::route_planner,
+    PluginKind::controller,      PluginKind::behaviour,
 };
 [[nodiscard]] std::string_view name_of(PluginKind kind);
 

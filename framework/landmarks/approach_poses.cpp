@@ -27,8 +27,15 @@ struct StandingPlace {
 };
 using PlacesByPart = std::map<std::int32_t, StandingPlace>;
 
+// What is printed is seen from its front only, and behind it may be another room.
+bool is_in_front(const Point& at, const Landmark& landmark) {
+  const Pose2& T_map_landmark = landmark.T_map_landmark;
+  return !landmark.marker || (at - T_map_landmark.position()).dot(unit_vector(T_map_landmark.theta_rad)) > 0.0;
+}
+
 // The best place near the landmark in each part of the lattice.
-PlacesByPart places_near(const Point& landmark, const StandingGround& ground) {
+PlacesByPart places_near(const Landmark& of, const StandingGround& ground) {
+  const Point landmark = of.T_map_landmark.position();
   const DistanceField& space = ground.space;
   const int reach = static_cast<int>(std::ceil(kApproachReach_m / space.cell_m()));
   const Cell centre = space.cell_at(landmark);
@@ -39,7 +46,7 @@ PlacesByPart places_near(const Point& landmark, const StandingGround& ground) {
       const std::int32_t part = ground.lattice.part_of({x, y});
       if (part == 0) continue;
       const StandingPlace place{{x, y}, (space.centre_of({x, y}) - landmark).norm(), ground.keeps_margin({x, y})};
-      if (place.distance_m >= kApproachReach_m) continue;
+      if (place.distance_m >= kApproachReach_m || !is_in_front(space.centre_of({x, y}), of)) continue;
       const auto [best, is_new] = places.emplace(part, place);
       if (!is_new && place.is_better_than(best->second)) best->second = place;
     }
@@ -98,7 +105,7 @@ void find_approach_poses(LandmarkGraph& graph, const StandingGround& ground, con
   std::map<std::int32_t, int> landmarks_near;
   for (const auto& [id, landmark] : graph.landmarks()) {
     if (landmark.level != 0) continue;
-    places[id] = places_near(landmark.T_map_landmark.position(), ground);
+    places[id] = places_near(landmark, ground);
     for (const auto& [part, place] : places[id]) ++landmarks_near[part];
   }
   for (const auto& [id, by_part] : places) {

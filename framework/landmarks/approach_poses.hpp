@@ -23,7 +23,8 @@ struct StandingGround {
   }
 };
 
-// Gives each landmark of level 0 its approach pose, or none where the robot's disc fits at no cell within reach.
+// Gives each landmark of level 0 its approach pose, or none where the robot's disc fits at no cell within reach (of a
+// printed marker: in front of it).
 //
 // Where free places near a landmark lie in several parts of the lattice, a part is preferred that the driven path or
 // the robot touches; then one with places that keep the margin, then the one with places near most landmarks, then

@@ -11,6 +11,9 @@
 namespace cairn {
 namespace {
 
+constexpr int kUndecidedMarker = 4;  // times the sightings, after which the likelier of its two poses will do
+constexpr double kMarkerMoved_m = 0.03;
+constexpr double kMarkerMoved_rad = radians(2.0);
 constexpr double kAnywhere_m = std::numeric_limits<double>::infinity();  // a part is of one place already
 
 // Without evidence: add_evidence() adds what the matching says.
@@ -19,6 +22,19 @@ Landmark first_seen(const Detection& detection) {
   landmark.category = detection.category;
   landmark.T_map_landmark = detection.T_map_landmark;
   return landmark;
+}
+
+// As LandmarkGraph::nearest, of those that are no printed markers.
+const Landmark* nearest_shape(const LandmarkGraph& graph, const Point& p_map, double within_m) {
+  const Landmark* best = nullptr;
+  double best_m = within_m;
+  for (const auto& [id, landmark] : graph.landmarks()) {
+    const double distance_m = (landmark.T_map_landmark.position() - p_map).norm();
+    if (landmark.marker || (best == nullptr ? distance_m > best_m : distance_m >= best_m)) continue;
+    best = &landmark;
+    best_m = distance_m;
+  }
+  return best;
 }
 
 // The other one was this one from the beginning.
@@ -52,6 +68,52 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
 void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
   driven_ = DrivenPath(driven_.max_poses());
   for (const Pose2& pose : T_map_robot) driven_.record(pose);
+  // Poses before these are of an earlier run.
+  poses_ = T_map_robot.size();
+  markers_.correct(T_map_robot);
+  std::vector<Change> changes;
+  for (const MarkerId& marker : markers_.markers()) place_marker(marker, changes);
+}
+
+void LandmarkTracker::expect_markers(std::map<int, std::string> categories, int confirm_sightings) {
+  marker_categories_ = std::move(categories);
+  confirm_marker_sightings_ = confirm_sightings;
+}
+
+std::vector<LandmarkTracker::Change> LandmarkTracker::update(std::span<const MarkerSighting> sightings) {
+  std::vector<Change> changes;
+  if (sightings.empty()) return changes;
+  for (const MarkerId& marker : markers_.update(sightings, pose_, poses_ - 1)) place_marker(marker, changes);
+  return changes;
+}
+
+void LandmarkTracker::place_marker(const MarkerId& marker, std::vector<Change>& changes) {
+  const std::optional<MarkerTracker::Estimate> estimate = markers_.estimate(marker);
+  if (!estimate) return;
+  const Landmark* const known = graph_.find_marker(marker);
+  // A marker of an earlier run stays until as much has been seen of it again.
+  const bool is_confirmed =
+      estimate->sightings >= confirm_marker_sightings_ &&
+      (estimate->is_decided || estimate->sightings >= kUndecidedMarker * confirm_marker_sightings_);
+  if (!is_confirmed) return;
+  if (known == nullptr) {
+    Landmark landmark;
+    landmark.marker = marker;
+    if (const auto category = marker_categories_.find(marker.number); category != marker_categories_.end())
+      landmark.category = category->second;
+    landmark.T_map_landmark = estimate->T_map_marker;
+    landmark.degree = 1.0;
+    landmark.sightings = estimate->sightings;
+    changes.push_back({graph_.add(std::move(landmark)), ChangeKind::found});
+    return;
+  }
+  Landmark& landmark = *graph_.find(known->id);
+  landmark.sightings = std::max(landmark.sightings, estimate->sightings);
+  const double moved_m = (landmark.T_map_landmark.position() - estimate->T_map_marker.position()).norm();
+  const double turned_rad = std::abs(wrap_angle(landmark.T_map_landmark.theta_rad - estimate->T_map_marker.theta_rad));
+  if (moved_m < kMarkerMoved_m && turned_rad < kMarkerMoved_rad) return;
+  landmark.T_map_landmark = estimate->T_map_marker;
+  changes.push_back({landmark.id, ChangeKind::changed});
 }
 
 bool LandmarkTracker::name(LandmarkId id, const std::string& name) {
@@ -63,6 +125,8 @@ bool LandmarkTracker::name(LandmarkId id, const std::string& name) {
 void LandmarkTracker::record_pose(const PoseEstimate& pose) {
   driven_.record(pose.T_map_robot);
   association_.record_pose(pose);
+  pose_ = pose;
+  ++poses_;
 }
 
 std::vector<LandmarkTracker::Change> LandmarkTracker::update(const Matching& matching) {
@@ -81,7 +145,7 @@ std::vector<LandmarkId> LandmarkTracker::add_by_distance(const Matching& matchin
   if (matching.detection) see(*matching.detection);
   std::vector<LandmarkId> changed;
   for (const auto& [id, landmark] : graph_.landmarks())
-    if (add_evidence(*graph_.find(id), matching, config_.merge_m)) changed.push_back(id);
+    if (!landmark.marker && add_evidence(*graph_.find(id), matching, config_.merge_m)) changed.push_back(id);
   for (const auto& [id, candidate] : candidates_.landmarks())
     add_evidence(*candidates_.find(id), matching, config_.merge_m);
   return changed;
@@ -89,7 +153,7 @@ std::vector<LandmarkId> LandmarkTracker::add_by_distance(const Matching& matchin
 
 void LandmarkTracker::see(const Detection& detection) {
   const Point at_m = detection.T_map_landmark.position();
-  if (const Landmark* known = graph_.nearest(at_m, config_.merge_m)) {
+  if (const Landmark* known = nearest_shape(graph_, at_m, config_.merge_m)) {
     ++graph_.find(known->id)->sightings;
     return;
   }
@@ -103,7 +167,8 @@ std::vector<LandmarkId> LandmarkTracker::add_by_template_sets(const Matching& ma
   const std::vector<Matching> parts = parts_of(matching, association_.split_m());
   if (parts.empty()) return changed;
   std::vector<LandmarkAssociation::Known> known;
-  for (const auto& [id, landmark] : graph_.landmarks()) known.push_back({{id, false}, &landmark});
+  for (const auto& [id, landmark] : graph_.landmarks())
+    if (!landmark.marker) known.push_back({{id, false}, &landmark});
   for (const auto& [id, candidate] : candidates_.landmarks()) known.push_back({{id, true}, &candidate});
   const std::vector<LandmarkAssociation::Answer> answers = association_.associate(parts, known);
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -151,12 +216,13 @@ void LandmarkTracker::confirm(LandmarkId candidate, std::vector<Change>& changes
 
 std::optional<LandmarkId> LandmarkTracker::known_as(const Landmark& candidate) const {
   if (config_.association == AssociationRule::distance) {
-    const Landmark* known = graph_.nearest(candidate.T_map_landmark.position(), config_.merge_m);
+    const Landmark* known = nearest_shape(graph_, candidate.T_map_landmark.position(), config_.merge_m);
     return known == nullptr ? std::nullopt : std::optional(known->id);
   }
   std::optional<LandmarkId> best;
   double best_ratio = 0.0;
   for (const auto& [id, landmark] : graph_.landmarks()) {
+    if (landmark.marker) continue;
     const double ratio = association_.log_ratio({{id, false}, &landmark}, {{candidate.id, true}, &candidate});
     if (ratio <= best_ratio) continue;
     best = id;
@@ -177,7 +243,7 @@ void LandmarkTracker::merge_beside(LandmarkId id, std::vector<Change>& changes) 
   if (landmark == nullptr) return;  // merged already
   std::vector<LandmarkId> same;
   for (const auto& [other, there] : graph_.landmarks())
-    if (other == id || are_one(there, *landmark)) same.push_back(other);
+    if (other == id || (!there.marker && are_one(there, *landmark))) same.push_back(other);
   const LandmarkId kept = same.front();
   for (std::size_t i = 1; i < same.size(); ++i) {
     Landmark& older = *graph_.find(kept);
@@ -194,6 +260,7 @@ void LandmarkTracker::merge_beside(LandmarkId id, std::vector<Change>& changes) 
 
 std::vector<LandmarkTracker::Change> LandmarkTracker::retire_freed(const OccupancyGrid& grid) {
   const auto is_freed = [&](const Landmark& landmark) {
+    if (landmark.marker) return false;
     const auto shape = std::ranges::find(shapes_, landmark.category, &LandmarkShape::category);
     return shape != shapes_.end() && freed_ratio(grid, shape->contour, landmark.T_map_landmark) >= config_.freed_ratio;
   };

@@ -1,7 +1,9 @@
 // From detections to the landmark graph: which landmark is it, and is it new or known?
 #pragma once
 
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "framework/landmarks/association.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/connector.hpp"
+#include "framework/landmarks/marker_tracker.hpp"
 #include "maps/geometry/contour.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
@@ -33,6 +36,11 @@ class LandmarkTracker {
   // map come and go: what is not confirmed yet is a candidate, which gathers evidence too but is not a landmark.
   // Landmarks that prove to be one are merged.
   [[nodiscard]] std::vector<Change> update(const Matching& matching);
+  // Printed markers seen from the pose last recorded. A marker is a landmark once it has been seen often enough; its
+  // pose in the graph moves when its estimate has, by more than a little.
+  [[nodiscard]] std::vector<Change> update(std::span<const MarkerSighting> sightings);
+  // How markers become landmarks: their categories by number, and after how many sightings.
+  void expect_markers(std::map<int, std::string> categories, int confirm_sightings);
   // Retires the landmarks, and drops the candidates, whose place has been seen free.
   [[nodiscard]] std::vector<Change> retire_freed(const OccupancyGrid& grid);
 
@@ -65,6 +73,7 @@ class LandmarkTracker {
   [[nodiscard]] std::optional<LandmarkId> known_as(const Landmark& candidate) const;
   [[nodiscard]] bool are_one(const Landmark& a, const Landmark& b) const;
   void merge_beside(LandmarkId id, std::vector<Change>& changes);
+  void place_marker(const MarkerId& marker, std::vector<Change>& changes);
 
   LandmarksConfig config_;
   std::vector<LandmarkShape> shapes_;
@@ -73,6 +82,11 @@ class LandmarkTracker {
   LandmarkGraph candidates_;  // seen, but not confirm_sightings times yet
   DrivenPath driven_;
   LandmarkConnector connector_;
+  MarkerTracker markers_;
+  std::map<int, std::string> marker_categories_;  // by number
+  int confirm_marker_sightings_ = 3;
+  PoseEstimate pose_;  // the one recorded last
+  std::size_t poses_ = 0;
 };
 
 }  // namespace cairn

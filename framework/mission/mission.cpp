@@ -44,11 +44,12 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
   }
 }
 
-std::vector<std::string> categories_of(const std::vector<LandmarkShape>& shapes) {
-  std::vector<std::string> categories;
-  categories.reserve(shapes.size());
-  for (const LandmarkShape& shape : shapes) categories.push_back(shape.category);
-  return categories;
+// A camera is what markers are seen by.
+void take_markers(const ConfigValue& root, Mission& mission) {
+  if (!mission.config.markers) return;
+  mission.marker_categories = marker_categories_of(*mission.config.markers);
+  if (!mission.config.robot.empty() && mission.robot.cameras.empty())
+    throw ConfigError(root.find("markers")->place, "markers: the robot file has no `cameras` to see them by");
 }
 
 void check_recordings(const ConfigValue& root, const MissionConfig& config) {
@@ -141,6 +142,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.plugin("localizer", &C::localizer, "localizer", "where the robot is").required = true;
   fields.plugin("map", &C::map, "map", "builds the occupancy grid").required = true;
   fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
+  fields.group("markers", &C::markers,
+               "printed tags that cameras see become landmarks; without it no picture is taken");
   fields.plugin("planner", &C::planner, "planner", "plans paths from place to place");
   fields.plugin("controller", &C::controller, "controller", "follows paths past obstacles");
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
@@ -169,6 +172,15 @@ std::string autosave_file_of(const MissionConfig& config) {
   return config.autosave.file.empty() ? config.mission + ".autosave.cairn" : config.autosave.file;
 }
 
+std::vector<std::string> categories_of(const Mission& mission) {
+  std::vector<std::string> categories;
+  categories.reserve(mission.shapes.size() + mission.marker_categories.size());
+  for (const LandmarkShape& shape : mission.shapes) categories.push_back(shape.category);
+  for (const auto& [number, category] : mission.marker_categories)
+    if (std::ranges::find(categories, category) == categories.end()) categories.push_back(category);
+  return categories;
+}
+
 void use_detector(Mission& mission, const PluginChoice& detector) {
   mission.config.detector = detector;
   mission.template_settings = template_settings_of(mission.config.detector);
@@ -194,12 +206,12 @@ ReadMission read_mission(const std::filesystem::path& file, const std::vector<st
   if (seed) mission.config.seed = *seed;
   mission.start_place = start_place_of(root);
   read.has_files = read_files(root, mission, errors);
+  if (read.has_files) errors.attempt([&] { take_markers(root, mission); });
   read.errors = errors.all();
   MissionTree tree = read_mission_tree(mission.config.steps, file);
   mission.steps = std::move(tree.steps);
   read.step_errors = std::move(tree.errors);
-  std::ranges::move(unknown_categories(mission.steps, categories_of(mission.shapes)),
-                    std::back_inserter(read.step_errors));
+  std::ranges::move(unknown_categories(mission.steps, categories_of(mission)), std::back_inserter(read.step_errors));
   return read;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
 #include "framework/files/template_settings.hpp"
+#include "framework/landmarks/marker_config.hpp"
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/autosave.hpp"
 #include "framework/mission/history.hpp"
@@ -42,6 +44,7 @@ struct MissionConfig {
   PluginChoice detector;
   PluginChoice planner;
   PluginChoice controller = default_controller();
+  std::optional<MarkersConfig> markers;
   LandmarksConfig landmarks;
   ClustersConfig clusters;
   CollisionMonitorConfig collision_monitor;
@@ -64,8 +67,12 @@ struct Mission {
   std::string world_fingerprint;  // of its file; empty without one
   SourcePlace start_place;        // of `start`, or of the file that lacks it
   std::vector<LandmarkShape> shapes;
+  std::map<int, std::string> marker_categories;  // by the numbers of markers
   std::vector<TreeNode> steps;
 };
+
+// Of landmarks that the mission can find: of its shapes and its markers.
+[[nodiscard]] std::vector<std::string> categories_of(const Mission& mission);
 
 // Name of the autosaved map in the output folder.
 [[nodiscard]] std::string autosave_file_of(const MissionConfig& config);

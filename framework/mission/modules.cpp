@@ -30,7 +30,13 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
   const World* const world = mission.world ? &*mission.world : nullptr;
   return build<Sensor>(library, mission.config.sensor,
                        {context_for(mission, library, PluginKind::sensor), world, built.T_map_start, built.begin_s,
-                        Budget{.cancel = cancel}});
+                        Budget{.cancel = cancel}, mission.config.markers.has_value()});
+}
+
+std::shared_ptr<MarkerDetector> build_marker_detector(const Mission& mission, const ModuleLibrary& library) {
+  if (!mission.config.markers) return nullptr;
+  return build<MarkerDetector>(library, mission.config.markers->detector,
+                               context_for(mission, library, PluginKind::marker_detector));
 }
 
 std::shared_ptr<Mapper> build_mapper(const Mission& mission, const ModuleLibrary& library,
@@ -81,7 +87,7 @@ std::shared_ptr<Controller> build_controller(const Mission& mission, const Modul
 std::shared_ptr<Behaviour> build_behaviour(const Mission& mission, const ModuleLibrary& library, const TreeNode& node,
                                            std::size_t index = 0) {
   BehaviourFactoryContext context{context_for(mission, library, PluginKind::behaviour, index)};
-  for (const LandmarkShape& shape : mission.shapes) context.categories.push_back(shape.category);
+  context.categories = categories_of(mission);
   if (library.find_any(node.choice.name) == nullptr) fail_unknown(library, node);
   try {
     return build<Behaviour>(library, node.choice, context);
@@ -141,10 +147,10 @@ std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const Module
 std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
   // The first modules of a kind lie side by side, the kinds one behind the other; the rest lie behind all kinds.
   constexpr std::uint64_t kSideBySide = 101;
+  constexpr std::uint64_t kKinds = 9;  // as many as there were first: seeds stay when kinds are added
   const std::uint64_t row = index / kSideBySide;
   return mixed_seed(static_cast<std::uint64_t>(mission_seed) * 1000003U +
-                    (static_cast<std::uint64_t>(kind) + row * std::size(kPluginKinds)) * kSideBySide +
-                    index % kSideBySide);
+                    (static_cast<std::uint64_t>(kind) + row * kKinds) * kSideBySide + index % kSideBySide);
 }
 
 TemplateSet render_templates(const Mission& mission, double cell_m, const ModuleLibrary& modules) {
@@ -211,6 +217,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
   if (!config.detector.name.empty() && !start_known)
     add_detector(mission, library, built.mapper->grid().cell_m(), built);
+  built.marker_detector = build_marker_detector(mission, library);
   if (!config.planner.name.empty()) built.planner = build_planner(mission, library);
   built.controller = build_controller(mission, library);
   if (const std::vector<ConfigError> missing = missing_inputs(mission.steps, library); !missing.empty())
@@ -252,6 +259,7 @@ std::vector<std::string> check_modules(const Mission& mission, const ModuleLibra
     ideal.template_settings.rendering = Rendering::ideal;
     add_detector(ideal, library, built.mapper->grid().cell_m(), built);
   });
+  attempt([&] { (void)build_marker_detector(mission, library); });
   attempt([&] {
     if (!config.planner.name.empty()) (void)build_planner(mission, library);
   });

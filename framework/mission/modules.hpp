@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/contracts/marker_detector.hpp"
 #include "framework/mission/mission.hpp"
 #include "framework/mission/orders/order_text.hpp"
 #include "framework/modules/module_library.hpp"
@@ -27,6 +28,7 @@ struct MissionModules {
   std::shared_ptr<Mapper> mapper;
   std::shared_ptr<const TemplateSet> templates;        // null without a detector
   std::shared_ptr<Detector> detector;                  // may be null
+  std::shared_ptr<MarkerDetector> marker_detector;     // may be null
   std::shared_ptr<Planner> planner;                    // may be null
   std::shared_ptr<Controller> controller;              // null when the default one is not installed
   std::vector<std::shared_ptr<Behaviour>> behaviours;  // in the order of behaviours_of()

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace cairn {
@@ -64,6 +65,16 @@ std::string fault_of(const PoseEstimate& pose) {
   if (!cairn::is_finite(pose.T_map_robot) || !pose.covariance.allFinite()) return "returned a pose that is not finite";
   const double out_m = pose.T_map_robot.position().norm();
   if (out_m > kMaxPlace_m) return fmt::format("returned a pose {:g} m from the map's origin", out_m);
+  return {};
+}
+
+std::string fault_of(const MarkerSighting& sighting) {
+  const auto is_wrong = [](const MarkerPose& pose) {
+    return !cairn::is_finite(pose.T_robot_marker) || !std::isfinite(pose.height_m) || !pose.covariance.allFinite() ||
+           pose.covariance.llt().info() != Eigen::Success;
+  };
+  if (is_wrong(sighting.pose) || (sighting.mirrored && is_wrong(*sighting.mirrored)))
+    return "returned a marker whose pose is not finite or whose covariance is none";
   return {};
 }
 

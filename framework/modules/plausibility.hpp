@@ -11,6 +11,7 @@
 
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/localizer.hpp"
+#include "framework/contracts/marker.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/modules/wall_clock.hpp"
 
@@ -49,6 +50,7 @@ class ObservationCheck {
   Pose2 T_odom_last_;
 };
 [[nodiscard]] std::string fault_of(const PoseEstimate& pose);
+[[nodiscard]] std::string fault_of(const MarkerSighting& sighting);
 [[nodiscard]] std::string fault_of(const Matching& matching, const OccupancyGrid& grid);
 
 }  // namespace cairn

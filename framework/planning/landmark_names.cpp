@@ -48,6 +48,7 @@ std::string refusal_of_name(const std::string& name, const LandmarkGraph& graph,
   if (first_unprintable(name) != std::string::npos) return "it holds a control character";
   if (name.front() == ' ' || name.back() == ' ') return "it begins or ends with a blank";
   if (looks_like_id(name)) return "it looks like an id";
+  if (marker_name_in(name)) return "it reads as a printed tag's number";
   if (reads_as_place(name)) return "it reads as a place: x,y or nearest CATEGORY";
   for (const auto& [id, landmark] : graph.landmarks())
     if (&landmark.name != own && landmark.name == name) return fmt::format("landmark L{} has it", id);

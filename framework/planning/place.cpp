@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kNearest = "nearest ";
 constexpr std::string_view kWhatAPlaceIs =
-    "a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, or `nearest CATEGORY`";
+    "a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, `tag NUMBER`, or `nearest CATEGORY`";
 
 [[noreturn]] void refuse(const std::string& place, const std::string& why) {
   throw MalformedPlace("place \"" + place + "\" " + why + "; " + std::string(kWhatAPlaceIs));

@@ -1,5 +1,5 @@
 // Places as people write them: `x,y`, `x,y,angle_deg`, `L12`, a landmark's name, `C1:L12`, a cluster's name,
-// `nearest CATEGORY`.
+// `tag 7` (a printed marker), `nearest CATEGORY`.
 #pragma once
 
 #include <stdexcept>

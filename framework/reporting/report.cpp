@@ -44,6 +44,7 @@ ordered_json json_of(const Landmark& landmark) {
                             {"templates", templates},
                             {"evidence", evidence}};
   if (!landmark.name.empty()) described["name"] = landmark.name;
+  if (landmark.marker) described["marker"] = text_of(*landmark.marker);
   if (const auto close = close_categories(landmark))
     described["close_to"] = {
         {"category", close->other}, {"degree", rounded(close->other_degree)}, {"own_degree", rounded(close->degree)}};
@@ -236,7 +237,10 @@ void RunReport::on(const Event& event, const MissionView& view) {
     degrees_.add({view.world.time_s, matching.region_centre_m, matching.degrees, matching.templates,
                   true_pose(view).value_or(view.world.pose.T_map_robot).position(), matching.fits_above});
   }
-  if (std::holds_alternative<TickDone>(event)) pose_errors_.note(view.world, true_pose(view));
+  if (std::holds_alternative<TickDone>(event)) {
+    pose_errors_.note(view.world, true_pose(view));
+    markers_.note(view.world);
+  }
   if (std::holds_alternative<Bumped>(event)) note_contact(view);
   const std::string sentence = sentence_of(event);
   if (!sentence.empty()) events_.add(at_time(view.world.time_s, sentence));
@@ -268,6 +272,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   report["map"] = result.map_file;
   report["pictures"] = pictures;
   if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
+  if (markers_.sightings() > 0) report["markers"] = ordered_json::parse(markers_.json());
   ordered_json degrees = ordered_json::array();
   for (const DegreeSample& sample : degrees_.samples()) {
     ordered_json row = {{"time_s", rounded(sample.time_s)}};
@@ -292,6 +297,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   ordered_json summary = main_figures(mission, result, runner.graph(), contacts_);
   summary["explored_ratio"] = rounded(result.explored_ratio);
   if (const auto error = pose_errors_.figures()) summary["pose_error"] = json_of(*error);
+  if (markers_.sightings() > 0) summary["markers"] = ordered_json::parse(markers_.json());
   summary["wall_s"] = rounded(wall_s);
   if (result.localisation) summary["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
@@ -304,32 +310,6 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   summary["pictures"] = files;
   summary["timing"] = json_of(runner.times());
   return summary.dump(-1, ' ', false, kBadText);
-}
-
-TruthScore score_against(const World& world, const LandmarkGraph& graph, double tolerance_m) {
-  TruthScore score;
-  std::vector<bool> found(world.objects.size(), false);
-  for (const auto& [id, landmark] : graph.landmarks()) {
-    std::size_t best = world.objects.size();
-    double best_error = tolerance_m;
-    for (std::size_t i = 0; i < world.objects.size(); ++i) {
-      const WorldObject& object = world.objects[i];
-      if (found[i] || object.category.empty() || object.category != landmark.category) continue;
-      const double error = (object.T_map_object.position() - landmark.T_map_landmark.position()).norm();
-      if (error > best_error) continue;
-      best = i;
-      best_error = error;
-    }
-    if (best == world.objects.size()) {
-      ++score.false_landmarks;
-      continue;
-    }
-    found[best] = true;
-    score.matched.push_back({id, best_error});
-  }
-  for (std::size_t i = 0; i < world.objects.size(); ++i)
-    if (!world.objects[i].category.empty() && !found[i]) ++score.missed_objects;
-  return score;
 }
 
 }  // namespace cairn

@@ -10,6 +10,7 @@
 #include "framework/mission/history.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/reporting/event_log.hpp"
+#include "framework/reporting/marker_figures.hpp"
 #include "framework/reporting/near_misses.hpp"
 #include "framework/reporting/pose_errors.hpp"
 #include "framework/reporting/run_track.hpp"
@@ -53,6 +54,7 @@ class RunReport : public Listener {
   [[nodiscard]] const std::vector<DegreeSample>& degrees() const { return degrees_.samples(); }
   [[nodiscard]] const std::vector<TimedContact>& contacts() const { return contacts_; }
   [[nodiscard]] const PoseErrors& pose_errors() const { return pose_errors_; }
+  [[nodiscard]] const MarkerFigures& markers() const { return markers_; }
   [[nodiscard]] const NearMisses& near_misses() const { return near_misses_; }
   [[nodiscard]] const RunTimeline& timeline() const { return timeline_; }
   [[nodiscard]] const RunTrack& track() const { return track_; }
@@ -66,6 +68,7 @@ class RunReport : public Listener {
   std::vector<TimedContact> contacts_;
   NearMisses near_misses_;
   PoseErrors pose_errors_;
+  MarkerFigures markers_;
   RunTimeline timeline_;
   RunTrack track_;
   EventLog events_;  // sentences with their time

@@ -69,7 +69,11 @@ class Merger {
     names_ = names_of_a_;
     for (const auto& [id, landmark] : b_.graph.landmarks()) names_.insert(landmark.name);
     for (const LandmarkPair& pair : near_pairs(a_.graph, b_.graph, options_.T_a_b, options_.near_m))
-      of_b_[pair.b] = pair.a;
+      if (a_.graph.find(pair.a)->marker == b_.graph.find(pair.b)->marker) of_b_[pair.b] = pair.a;
+    // There is one tag of a number, however far off a map has it.
+    for (const auto& [id, landmark] : b_.graph.landmarks())
+      if (const Landmark* same = landmark.marker ? a_.graph.find_marker(*landmark.marker) : nullptr)
+        of_b_[id] = same->id;
     merged_.joined_landmarks = of_b_.size();
     for (const auto& [id, landmark] : b_.graph.landmarks()) {
       Landmark moved = laid_over(landmark, options_.T_a_b);

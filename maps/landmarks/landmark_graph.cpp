@@ -174,7 +174,17 @@ const Landmark* LandmarkGraph::find_by_name(const std::string& name_or_id) const
   if (name_or_id.empty()) return nullptr;
   for (const auto& [id, landmark] : landmarks_)
     if (landmark.name == name_or_id) return &landmark;
+  const std::optional<MarkerName> marker = marker_name_in(name_or_id);
+  if (!marker) return nullptr;
+  if (marker->family) return find_marker({*marker->family, marker->number});
+  for (const MarkerFamily family : kMarkerFamilies)
+    if (const Landmark* landmark = find_marker({family, marker->number})) return landmark;
   return nullptr;
+}
+
+const Landmark* LandmarkGraph::find_marker(const MarkerId& marker) const {
+  const auto found = std::ranges::find_if(landmarks_, [&](const auto& entry) { return entry.second.marker == marker; });
+  return found == landmarks_.end() ? nullptr : &found->second;
 }
 
 const Route* LandmarkGraph::find_route(RouteId id) const {
@@ -222,7 +232,8 @@ const Route* LandmarkGraph::route_between(LandmarkId from, LandmarkId to) const 
 }
 
 std::string label_of(const Landmark& landmark) {
-  return landmark.name.empty() ? fmt::format("L{}", landmark.id) : landmark.name;
+  if (!landmark.name.empty()) return landmark.name;
+  return landmark.marker ? text_of(*landmark.marker) : fmt::format("L{}", landmark.id);
 }
 
 }  // namespace cairn

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "maps/geometry/pose.hpp"
+#include "maps/landmarks/marker_id.hpp"
 
 namespace cairn {
 
@@ -47,6 +48,8 @@ struct Landmark {
   std::optional<Pose2> access;  // where a robot stands to be "at" the landmark; none: its position
   int level = 0;                // floor of a building
   std::string annotations;      // what other tools keep with it: the text of a JSON object, or empty
+  // The printed tag that it is; theta_rad is then the direction that its printed side faces.
+  std::optional<MarkerId> marker{};
 
   // Where a robot stands to be "at" it.
   [[nodiscard]] Pose2 approach_pose() const { return access.value_or(T_map_landmark); }
@@ -106,8 +109,10 @@ class LandmarkGraph {
   [[nodiscard]] const std::map<RouteId, Route>& routes() const { return routes_; }
   [[nodiscard]] const Landmark* find(LandmarkId id) const;
   [[nodiscard]] Landmark* find(LandmarkId id);
-  // "L12" or its name; an id wins over a landmark that is named like one, the lower id over a namesake.
+  // "L12", its name or "tag 7"; an id wins over a landmark that is named like one, the lower id over a namesake, a name
+  // over a marker.
   [[nodiscard]] const Landmark* find_by_name(const std::string& name_or_id) const;
+  [[nodiscard]] const Landmark* find_marker(const MarkerId& marker) const;  // the lower id over another with that marker
   [[nodiscard]] const Route* find_route(RouteId id) const;
   // The landmark whose position is nearest, at most within_m away, or null; ties go to the lower id.
   [[nodiscard]] const Landmark* nearest(const Point& p_map, double within_m) const;
@@ -136,6 +141,6 @@ class LandmarkGraph {
   RouteId next_route_ = 1;
 };
 
-[[nodiscard]] std::string label_of(const Landmark& landmark);  // its name, or "L<id>"
+[[nodiscard]] std::string label_of(const Landmark& landmark);  // its name, or "tag 7", or "L<id>"
 
 }  // namespace cairn

@@ -20,7 +20,7 @@ int version_of(Database& database) {
 // Nothing is written that would not load again: what the tables refuse is a bug of the caller.
 Database database_of(const SavedMap& map) {
   try {
-    Database database = empty_map(map.submaps.empty() ? 1 : kMapSchemaVersion);
+    Database database = empty_map(map.submaps.empty() && !has_markers(map.graph) ? 1 : kMapSchemaVersion);
     write_content(database, map);
     write_checksums(database);
     database.execute("COMMIT");

@@ -23,7 +23,7 @@
 
 namespace cairn {
 
-inline constexpr int kMapSchemaVersion = 2;  // the newest; without submaps a map is written as 1
+inline constexpr int kMapSchemaVersion = 2;  // the newest; without submaps and markers a map is written as 1
 
 class StoreError : public std::runtime_error {
  public:

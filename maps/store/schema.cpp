@@ -73,8 +73,8 @@ constexpr std::array kVersionOne{
                kWithoutRowid},
 };
 
-// Version 2: what laser SLAM knows (maps/submaps/kept_submaps.hpp). echoes: width x height counts, zlib; crc32 of its
-// bytes.
+// Version 2: what laser SLAM knows (maps/submaps/kept_submaps.hpp), and which landmarks are printed markers. echoes:
+// width x height counts, zlib; crc32 of its bytes.
 constexpr std::array kMigrations{
     "CREATE TABLE submap_nodes (number INTEGER PRIMARY KEY, stamp_s REAL NOT NULL, x_m REAL NOT NULL, y_m REAL NOT "
     "NULL, theta_rad REAL NOT NULL);"
@@ -83,7 +83,8 @@ constexpr std::array kMigrations{
     "INTEGER NOT NULL);"
     "CREATE TABLE submap_edges (number INTEGER PRIMARY KEY, from_node INTEGER NOT NULL, to_node INTEGER NOT NULL, "
     "x_m REAL NOT NULL, y_m REAL NOT NULL, theta_rad REAL NOT NULL, xx REAL NOT NULL, xy REAL NOT NULL, xt REAL NOT "
-    "NULL, yy REAL NOT NULL, yt REAL NOT NULL, tt REAL NOT NULL, closure INTEGER NOT NULL, believed INTEGER NOT NULL)"};
+    "NULL, yy REAL NOT NULL, yt REAL NOT NULL, tt REAL NOT NULL, closure INTEGER NOT NULL, believed INTEGER NOT NULL);"
+    "CREATE TABLE landmark_markers (landmark INTEGER PRIMARY KEY, family TEXT NOT NULL, number INTEGER NOT NULL)"};
 static_assert(kMapSchemaVersion == 1 + kMigrations.size());
 
 // The steps from one version to another.

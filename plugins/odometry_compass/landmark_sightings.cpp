@@ -95,7 +95,7 @@ void LandmarkSightings::anchor_landmarks(const LandmarkGraph& graph, const PoseE
     if (is_same || (anchor.category == landmark.category && variance_m2 >= anchor.variance_m2)) continue;
     anchor = {landmark.T_map_landmark, landmark.category, variance_m2, nullptr, {}};
     const auto shape = std::ranges::find(shapes_, landmark.category, &LandmarkShape::category);
-    if (shape != shapes_.end()) anchor.contour = &shape->contour;
+    if (shape != shapes_.end() && !landmark.marker) anchor.contour = &shape->contour;
   }
 }
 

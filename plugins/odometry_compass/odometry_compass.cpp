@@ -40,7 +40,18 @@ PoseEstimate OdometryCompass::update(const Observation& observation, const Known
   // Of the first observation nothing says where the odometry begins.
   if (use_landmarks_ && chosen_.T_odom_robot())
     sightings = landmark_sightings_.look(observation, chosen_.estimate(), *chosen_.T_odom_robot(), known);
-  return update_by(observation, sightings);
+  const PoseEstimate estimate = update_by(observation, sightings);
+  return use_landmarks_ ? follow_markers(observation, known, estimate) : estimate;
+}
+
+PoseEstimate OdometryCompass::follow_markers(const Observation& observation, const KnownMap& known,
+                                             const PoseEstimate& before) {
+  const std::span<const LandmarkSighting> sightings = marker_sightings_.look(observation, before, known);
+  if (sightings.empty()) return before;
+  PoseEstimate estimate = chosen_.correct(sightings);
+  estimate.sightings_used += before.sightings_used;
+  estimate.sightings_refused += before.sightings_refused;
+  return estimate;
 }
 
 PoseEstimate OdometryCompass::update_by(const Observation& observation, std::span<const LandmarkSighting> sightings) {

@@ -13,6 +13,7 @@
 
 #include "framework/contracts/localizer.hpp"
 #include "plugins/odometry_compass/landmark_sightings.hpp"
+#include "plugins/odometry_compass/marker_sightings.hpp"
 #include "plugins/odometry_compass/pose_tracker.hpp"
 
 namespace cairn::odometry_compass {
@@ -28,6 +29,9 @@ class OdometryCompass final : public Localizer {
 
  private:
   void begin_again();
+  // before: without the markers.
+  [[nodiscard]] PoseEstimate follow_markers(const Observation& observation, const KnownMap& known,
+                                            const PoseEstimate& before);
 
   bool use_landmarks_;
   CompassBias chosen_bias_;
@@ -36,7 +40,7 @@ class OdometryCompass final : public Localizer {
   std::optional<PoseTracker> other_;
   int wins_ = 0;  // of the chosen one, in a row; what has won often is not given up lightly
   LandmarkSightings landmark_sightings_;
-  std::optional<Pose2> T_odom_robot_;  // the last good one
+  MarkerSightings marker_sightings_;
 };
 
 }  // namespace cairn::odometry_compass

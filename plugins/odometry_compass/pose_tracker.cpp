@@ -77,11 +77,19 @@ PoseTracker::PoseTracker(const Config& config, const RobotModel& robot, const Co
 PoseEstimate PoseTracker::update(const Observation& observation, std::span<const LandmarkSighting> sightings) {
   follow_odometry(observation.T_odom_robot);
   if (use_compass_ && observation.compass_rad) follow_compass(*observation.compass_rad, observation.stamp_s);
-  int used = config_.use_walls ? follow_walls(observation) : 0;
+  const int walls = config_.use_walls ? follow_walls(observation) : 0;
+  witnesses_ += walls;
+  PoseEstimate estimate = correct(sightings);
+  judge_suspect();
+  estimate.sightings_used += walls;
+  return estimate;
+}
+
+PoseEstimate PoseTracker::correct(std::span<const LandmarkSighting> sightings) {
+  int used = 0;
   int refused = 0;
   for (const LandmarkSighting& sighting : sightings) ++(follow_landmark(sighting) ? used : refused);
   witnesses_ += used;
-  judge_suspect();
   PoseEstimate estimate = filter_.estimate();
   estimate.sightings_used = used;
   estimate.sightings_refused = refused;

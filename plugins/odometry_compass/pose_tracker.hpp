@@ -15,7 +15,7 @@
 //   no compass in the robot's file    its readings are not used
 //   landmark beyond the gate          refused (the wrong landmark, most likely)
 //   landmark further than 1000 km     refused
-// Walls come after the compass, landmarks after walls.
+// Walls come after the compass, landmarks after walls, printed markers last.
 #pragma once
 
 #include <optional>
@@ -45,6 +45,8 @@ class PoseTracker {
 
   // sightings: landmarks seen again in the observation.
   PoseEstimate update(const Observation& observation, std::span<const LandmarkSighting> sightings);
+  // More of them in the same observation; used and refused count these only.
+  PoseEstimate correct(std::span<const LandmarkSighting> sightings);
   [[nodiscard]] PoseEstimate estimate() const { return filter_.estimate(); }
   // The odometry of the last observation whose odometry was usable.
   [[nodiscard]] const std::optional<Pose2>& T_odom_robot() const { return T_odom_robot_; }

@@ -43,6 +43,11 @@ Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot
   return graph_.T_map(node);
 }
 
+void LaserGraph::see(const MarkerSighting& sighting) {
+  const Scan& scan = scans_.back();
+  if (const auto closure = marker_closures_.see(sighting, scan.node, scan.T_node_scan)) graph_.add(*closure);
+}
+
 // The match's, and the drift since the last closure: a third of the window's growth, which is of three deviations.
 Eigen::Matrix3d LaserGraph::covariance_in_map(const LocalPose& local) const {
   const std::size_t last = graph_.size() - 1;

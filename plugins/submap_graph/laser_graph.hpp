@@ -18,6 +18,7 @@
 #include "plugins/submap_graph/config.hpp"
 #include "plugins/submap_graph/gathered_echoes.hpp"
 #include "plugins/submap_graph/local_map.hpp"
+#include "plugins/submap_graph/marker_closures.hpp"
 
 namespace cairn::submap_graph {
 
@@ -27,6 +28,8 @@ class LaserGraph {
 
   // A scan as seen from the robot. Where the robot is.
   Pose2 add(std::span<const Point> points_m, const Pose2& T_odom_robot);
+  // Seen at the scan that was added last.
+  void see(const MarkerSighting& sighting);
   // After the last scan, until it returns false: searches closures of all nodes with all submaps, some nodes a call,
   // and solves for the last time.
   bool finish_part();
@@ -57,6 +60,7 @@ class LaserGraph {
   LocalMap local_map_;
   TiedGraph graph_;
   Closer closer_;
+  MarkerClosures marker_closures_;
   GatheredEchoes gathered_;
   std::vector<Scan> scans_;
   std::uint64_t revision_ = 0;

@@ -40,6 +40,7 @@ PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&
     T_odom_robot_ = is_usable(observation.T_odom_robot) ? observation.T_odom_robot : Pose2{};
   PoseEstimate estimate;
   estimate.T_map_robot = graph_.add(points_m_, *T_odom_robot_);
+  for (const MarkerSighting& sighting : observation.markers) graph_.see(sighting);
   node_stamps_s_.resize(graph_.graph().size(), observation.stamp_s);
   estimate.covariance = graph_.covariance();
   (graph_.matched_ratio() >= kMatched_ratio ? estimate.sightings_used : estimate.sightings_refused) = 1;

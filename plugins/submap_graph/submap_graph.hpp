@@ -10,8 +10,9 @@
 //   bad readings, far ones
 //   nothing to match                     odometry alone
 //
-// The compass, the known map and landmarks are not used. The covariance is that of the latest match and of the drift
-// since the last closure. The graph and its submaps grow with the way, so update() allocates.
+// Printed markers tie the places that they are seen from. The compass, the known map and other landmarks are not used.
+// The covariance is that of the latest match and of the drift since the last closure. The graph and its submaps grow
+// with the way, so update() allocates.
 #pragma once
 
 #include <optional>

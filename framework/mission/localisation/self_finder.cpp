@@ -7,6 +7,10 @@ namespace {
 
 constexpr double kCompassSlack_rad = radians(15.0);  // what no robot's file knows: steel beside the way
 
+constexpr double kMarkerAngle_rad = radians(4.0);  // standard deviation of a marker that counts
+constexpr double kMarkersAgree_m = 0.3;
+constexpr double kMarkersAgree_rad = radians(8.0);
+
 }  // namespace
 
 SelfFinder::SelfFinder(const OccupancyGrid& map, const RobotModel& robot)
@@ -28,6 +32,19 @@ void SelfFinder::update(const Observation& observation, const Pose2& T_local_rob
       Search{std::async(std::launch::async, [this, around = surroundings_of(seen, T_local_robot),
                                              turned = heading(T_local_robot)] { return search_.find(around, turned); }),
              T_local_robot, time_s};
+}
+
+void SelfFinder::see_markers(const Observation& observation, const Pose2& T_local_robot, const LandmarkGraph& known) {
+  for (const MarkerSighting& sighting : observation.markers) {
+    const Landmark* const landmark = sighting.mirrored ? nullptr : known.find_marker(sighting.marker);
+    if (landmark == nullptr || sighting.pose.covariance(2, 2) > kMarkerAngle_rad * kMarkerAngle_rad) continue;
+    const Pose2 guess = landmark->T_map_landmark * inverse(T_local_robot * sighting.pose.T_robot_marker);
+    if (marker_guess_) {
+      const Pose2 off = inverse(*marker_guess_ * T_local_robot) * (guess * T_local_robot);
+      if (off.position().norm() < kMarkersAgree_m && std::abs(off.theta_rad) < kMarkersAgree_rad) by_marker_ = guess;
+    }
+    marker_guess_ = guess;
+  }
 }
 
 void SelfFinder::follow_compass(const Observation& observation, const Pose2& T_local_robot) {

@@ -4,6 +4,8 @@
 // that small map is searched in the whole of the saved one (maps/relocalisation), in a thread of its own; the answer is
 // taken kAnswerAfter_s later by the mission's clock, and waited for if it is late: the same run gives the same bytes.
 // The compass, where there is one, limits how the two frames can be turned to each other.
+//
+// A printed marker of the map ends the search: two sightings that agree, from pictures that leave no second pose open.
 #pragma once
 
 #include <future>
@@ -12,6 +14,7 @@
 
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "maps/landmarks/landmark_graph.hpp"
 #include "maps/relocalisation/pose_belief.hpp"
 
 namespace cairn {
@@ -33,8 +36,12 @@ class SelfFinder {
 
   // At every tick. seen: the small map.
   void update(const Observation& observation, const Pose2& T_local_robot, const OccupancyGrid& seen, double time_s);
+  // After update(): markers in that observation that the map holds.
+  void see_markers(const Observation& observation, const Pose2& T_local_robot, const LandmarkGraph& known);
   // Where the robot's own frame lies in the map, once that is known.
-  [[nodiscard]] const std::optional<Pose2>& T_map_local() const { return belief_.T_map_local(); }
+  [[nodiscard]] const std::optional<Pose2>& T_map_local() const {
+    return by_marker_ ? by_marker_ : belief_.T_map_local();
+  }
   // All but found_s and T_map_robot.
   [[nodiscard]] LocalisationFigures figures() const;
 
@@ -54,6 +61,8 @@ class SelfFinder {
   bool has_compass_;
   Point compass_sum_{0.0, 0.0};  // of unit vectors: by how much the map's frame is turned from the robot's own
   PoseBelief belief_;
+  std::optional<Pose2> marker_guess_;  // of T_map_local, by the marker seen last
+  std::optional<Pose2> by_marker_;
   int searches_ = 0;
   std::optional<Search> running_;  // last: its thread uses search_
 };

@@ -82,6 +82,7 @@ void MissionLoop::begin_localisation(const LocaliseIn& localise) {
 // From the tick on at which it is believed, all see the map and the robot's place in it.
 void MissionLoop::find_itself() {
   finder_->update(world_.observation, world_.pose.T_map_robot, *world_.grid, world_.time_s);
+  finder_->see_markers(world_.observation, world_.pose.T_map_robot, perception_.tracker().graph());
   localisation_ = finder_->figures();
   if (!finder_->T_map_local()) return;
   const Pose2 T_map_local = *finder_->T_map_local();
@@ -163,6 +164,7 @@ void MissionLoop::tick(Sensed sensed) {
   const HostStages& stages = modules_.host;
   in(stages.observation, [&] { take(std::move(sensed)); });
   const Observation& observation = world_.observation;
+  in(stages.perception, [&] { perception_.see_markers(world_.observation); });
 
   world_.pose = in(stages.perception, [&] { return perception_.localize(observation); });
   if (finder_) in(stages.perception, [&] { find_itself(); });
@@ -172,7 +174,7 @@ void MissionLoop::tick(Sensed sensed) {
     return perception_.map(observation, world_.pose, monitor_.hearing().deaf());
   });
   const Recognition recognised =
-      in(stages.landmark_tracker, [&] { return perception_.recognise(cells, world_.time_s); });
+      in(stages.landmark_tracker, [&] { return perception_.recognise(cells, world_.time_s, observation.markers); });
   world_.coarse = recognised.coarse;
   counts_.count_matchings(recognised.matchings);
   for (const Event& event : recognised.events) publisher_.publish(event);

@@ -27,6 +27,7 @@ StagedModules::StagedModules(const MissionModules& modules, const Mission& missi
   localizer = staged(modules.localizer, "localizer", config.localizer);
   mapper = staged(modules.mapper, "map", config.map);
   detector = staged(modules.detector, "detector", config.detector);
+  if (config.markers) marker_detector = staged(modules.marker_detector, "marker detector", config.markers->detector);
   planner = staged(modules.planner, "planner", config.planner);
   routes = staged(modules.planner, "routes", config.planner);
   controller = staged(modules.controller, "controller", config.controller);

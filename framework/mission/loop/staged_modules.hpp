@@ -39,6 +39,7 @@ struct StagedModules {
   Staged<Localizer> localizer;
   Staged<Mapper> mapper;
   Staged<Detector> detector;                  // may be none
+  Staged<MarkerDetector> marker_detector;     // may be none
   Staged<Planner> planner;                    // may be none
   Staged<Planner> routes;                     // the same, when it joins landmarks
   Staged<Controller> controller;              // may be none

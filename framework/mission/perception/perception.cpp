@@ -20,7 +20,9 @@ Perception::Perception(const Mission& mission, StagedModules& modules, const Bud
       modules_(modules),
       budget_(budget),
       tracker_(mission.config.landmarks, mission.robot, mission.shapes, mission.config.history.max_path_poses),
-      hold_out_(mission.config.hold_out_every, mission.config.seed) {}
+      hold_out_(mission.config.hold_out_every, mission.config.seed) {
+  if (config_.markers) tracker_.expect_markers(mission.marker_categories, config_.markers->confirm_sightings);
+}
 
 void Perception::restore(const SavedMap& map) {
   tracker_.restore(map.graph, map.progress->candidates, map.driven_path);
@@ -58,6 +60,17 @@ const CoarseGrid* Perception::show_earlier_map() {
   Budget nothing;
   nothing.cancel = &cancelled;
   return detect(everything_in(grid_->bounds()), nothing).coarse;
+}
+
+void Perception::see_markers(Observation& observation) {
+  for (const MarkerSighting& sighting : observation.markers)
+    if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.sensor.fault(fault);
+  if (!modules_.marker_detector || observation.images.empty()) return;
+  const std::vector<MarkerSighting> seen = modules_.marker_detector.call(
+      [&](MarkerDetector& detector) { return detector.detect(observation.images, budget_); });
+  for (const MarkerSighting& sighting : seen)
+    if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.marker_detector.fault(fault);
+  observation.markers.insert(observation.markers.end(), seen.begin(), seen.end());
 }
 
 PoseEstimate Perception::localize(const Observation& observation) {
@@ -155,8 +168,9 @@ Perception::Detected Perception::detect(const CellChanges& changes, const Budget
   return detected;
 }
 
-Recognition Perception::recognise(const CellChanges& changes, double time_s) {
+Recognition Perception::recognise(const CellChanges& changes, double time_s, std::span<const MarkerSighting> markers) {
   Recognition recognised;
+  if (config_.markers && use_ == MapUse::grows) add_events(tracker_.update(markers), recognised.events);
   if (!modules_.detector) return recognised;
   auto [report, coarse] = detect(changes, budget_);
   recognised.coarse = coarse;

@@ -40,10 +40,13 @@ class Perception {
   const CoarseGrid* show_earlier_map();
 
   // The stages of a tick, in their order.
+  // Adds the markers that are in the observation's pictures.
+  void see_markers(Observation& observation);
   [[nodiscard]] PoseEstimate localize(const Observation& observation);
   // Which cells may have changed; valid until the next call. Of deaf transducers "no echo" is no news for the map.
   const CellChanges& map(const Observation& observation, const PoseEstimate& pose, std::span<const int> deaf = {});
-  [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s);
+  [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s,
+                                      std::span<const MarkerSighting> markers = {});
 
   // Whether the localizer has corrected the past so far that the map should be drawn anew (after localize()).
   [[nodiscard]] bool is_map_moved();

@@ -149,7 +149,8 @@ int map_info(const MapCommand& command, const CommonOptions& common) {
     std::cout << fmt::format("  level {}: {}, {} on their boundaries\n", ++level, counted(clusters, "cluster"),
                              counted(boundary, "landmark"));
   list_first(map.graph.landmarks(), "landmarks", [](const Landmark& landmark) {
-    const std::string name = landmark.name.empty() ? "" : ", " + in_quotes(landmark.name);
+    const std::string marker = landmark.marker ? ", " + text_of(*landmark.marker) : "";
+    const std::string name = marker + (landmark.name.empty() ? "" : ", " + in_quotes(landmark.name));
     return fmt::format("  L{:<5} {:<12} at ({:.2f}, {:.2f}), {} deg, degree {}{}\n", landmark.id,
                        printable(landmark.category), landmark.T_map_landmark.x_m, landmark.T_map_landmark.y_m,
                        std::lround(degrees(landmark.T_map_landmark.theta_rad)), printable(degree_text(landmark)), name);

@@ -49,6 +49,7 @@ void print_landmarks(std::ostream& out, const Mission& mission, const LandmarkGr
     for (const LandmarkTruth& matched : truth.matched)
       if (matched.landmark == id) out << fmt::format(" {:9.3f}", matched.error_m);
     const std::string close = close_text(landmark);
+    if (landmark.marker) out << "  " << text_of(*landmark.marker);
     out << (landmark.name.empty() ? "" : "  " + landmark.name) << (close.empty() ? "" : "  close: " + close) << "\n";
   }
 }
@@ -71,6 +72,11 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
   if (const auto error = report.pose_errors().figures())
     out << fmt::format("  pose error  median {:.3f} m, 95 % {:.3f} m, worst {:.3f} m; {} corrections, {} refused\n",
                        error->median_m, error->p95_m, error->worst_m, error->corrections, error->refused);
+  if (const MarkerFigures& markers = report.markers(); markers.sightings() > 0)
+    out << fmt::format("  tags        {}, {}; corners {:.2f} pixels off\n", counted(markers.markers(), "tag"),
+                       counted(markers.sightings(), "sighting"), markers.reprojection_error_px());
+  if (const std::string warning = report.markers().warning(); !warning.empty())
+    out << "  warning     " << warning << "\n";
   if (result.localisation) out << "  trust       " << trust_text(*result.localisation) << "\n";
   out << fmt::format("  readings    {}, {}, {}, {}\n", result.readings, counted(result.matchings, "matching"),
                      counted(runner.graph().landmarks().size(), "landmark"), counted_routes(runner.graph()));

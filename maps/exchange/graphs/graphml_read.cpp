@@ -216,6 +216,7 @@ class GraphmlReader {
     if (landmark.name.empty()) landmark.name = values.take_text({"name", "label"});
     if (landmark.name.empty()) landmark.name = drawn.label;
     landmark.category = values.take_text({"category", "class"});
+    landmark.marker = values.take_marker();
     landmark.annotations = values.take_annotations();
   }
 

@@ -93,6 +93,16 @@ std::string GraphmlValues::take_text(const Names& names) {
   return value ? std::string(value->text) : "";
 }
 
+std::optional<MarkerId> GraphmlValues::take_marker() {
+  const std::optional<GraphmlValue> value = take({"april_tag"});
+  if (!value) return std::nullopt;
+  const std::optional<MarkerName> name = marker_name_in(value->text);
+  if (!name)
+    source_.fail(value->offset,
+                 "april_tag " + in_quotes(value->text) + " is none: it must read as tag 7 or tag 25h9 7");
+  return MarkerId{name->family.value_or(MarkerFamily::tag36h11), name->number};
+}
+
 std::string GraphmlValues::take_annotations() {
   const std::optional<GraphmlValue> text = take({"annotations"});
   if (text && !is_json_object(text->text)) source_.fail(text->offset, "annotations must be the text of a JSON object");

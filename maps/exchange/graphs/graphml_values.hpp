@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "maps/base/source_text.hpp"
+#include "maps/landmarks/marker_id.hpp"
 
 namespace cairn::exchange {
 
@@ -36,6 +37,7 @@ class GraphmlValues {
   int take_level();
   std::string take_text(const Names& names);
   // Everything that is left, as the text of a JSON object; empty when nothing is.
+  std::optional<MarkerId> take_marker();  // of the key april_tag
   std::string take_annotations();
 
  private:

@@ -18,7 +18,13 @@ constexpr const char* kHead =
 <key id="n_name" for="node" attr.name="name" attr.type="string"/>
 <key id="n_category" for="node" attr.name="category" attr.type="string"/>
 <key id="n_annotations" for="node" attr.name="annotations" attr.type="string"/>
-<key id="e_weight" for="edge" attr.name="weight" attr.type="double"/>
+)";
+// Where a landmark is a printed marker.
+constexpr const char* kMarkerKey =
+    R"(<key id="n_marker" for="node" attr.name="april_tag" attr.type="string"/>
+)";
+constexpr const char* kHeadEnd =
+    R"(<key id="e_weight" for="edge" attr.name="weight" attr.type="double"/>
 <key id="e_closed" for="edge" attr.name="closed" attr.type="boolean"/>
 <key id="e_driven" for="edge" attr.name="driven" attr.type="boolean"/>
 <key id="e_level" for="edge" attr.name="level" attr.type="int"/>
@@ -31,11 +37,14 @@ class GraphmlWriter {
  public:
   ExportedGraph write(const LandmarkGraph& graph) {
     text_ = kHead;
+    if (std::ranges::any_of(graph.landmarks(), [](const auto& entry) { return entry.second.marker.has_value(); }))
+      text_ += kMarkerKey;
+    text_ += kHeadEnd;
     for (const auto& [id, landmark] : graph.landmarks()) write_node(landmark);
     for (const auto& [id, route] : graph.routes()) write_edge(route);
     text_ += "</graph>\n</graphml>\n";
     exchange::Holds holds;
-    holds.category = holds.heading = holds.level = holds.annotations = holds.speed_limit = true;
+    holds.category = holds.heading = holds.level = holds.annotations = holds.speed_limit = holds.marker = true;
     holds.driven = holds.closed = holds.route_ids = true;
     ExportedGraph exported{std::move(text_), exchange::warnings_of_loss(graph, holds)};
     if (changed_ > 0)
@@ -54,6 +63,7 @@ class GraphmlWriter {
     if (!landmark.name.empty()) data("n_name", landmark.name);
     if (!landmark.category.empty()) data("n_category", landmark.category);
     if (!landmark.annotations.empty()) data("n_annotations", landmark.annotations);
+    if (landmark.marker) data("n_marker", text_of(*landmark.marker));
     text_ += "</node>\n";
   }
 

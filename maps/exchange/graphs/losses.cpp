@@ -53,6 +53,8 @@ std::vector<std::string> warnings_of_loss(const LandmarkGraph& graph, const Hold
   warnings.of_landmarks(format.level, "the floor is not written", [](auto& l) { return l.level != 0; });
   warnings.of_landmarks(format.annotations, "what other tools keep with it is not written",
                         [](auto& l) { return !l.annotations.empty(); });
+  warnings.of_landmarks(format.marker, "which printed marker it is is not written",
+                        [](auto& l) { return l.marker.has_value(); });
   warnings.of_landmarks(false, "how it was recognised is not written", [](auto& l) {
     return l.sightings != 0 || l.degree != 0.0 || !l.templates.empty() || !l.evidence.empty();
   });

@@ -15,6 +15,7 @@ struct Holds {
   bool level = false;
   bool access = false;
   bool annotations = false;
+  bool marker = false;
   bool speed_limit = false;
   bool trajectory = false;
   bool driven = false;

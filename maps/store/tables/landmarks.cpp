@@ -34,18 +34,42 @@ Landmark landmark_in(Statement& row, Histories& histories) {
   return landmark;
 }
 
+constexpr std::int64_t kMaxMarkerNumber = 1'000'000;
+
+// Of landmarks and retired ones, which are in no table of their own.
+using Markers = std::map<LandmarkId, MarkerId>;
+
+Markers read_markers(Reading& reading) {
+  Markers markers;
+  Statement table(reading.database, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'landmark_markers'");
+  if (!table.step()) return markers;  // of version 1
+  reading.rows("landmark_markers", "SELECT * FROM landmark_markers ORDER BY landmark", [&](Statement& row) {
+    const std::optional<MarkerFamily> family = marker_family_of(row.plain_text(1));
+    if (!family) throw StoreError("family is none that is known: \"" + row.plain_text(1) + "\"");
+    markers[row.integer_within(0, 1, kMaxId)] = {*family, static_cast<int>(row.integer_within(2, 0, kMaxMarkerNumber))};
+  });
+  return markers;
+}
+
+void take_marker(Markers& markers, Landmark& landmark) {
+  if (const auto marker = markers.extract(landmark.id)) landmark.marker = marker.mapped();
+}
+
 // table: landmarks or candidates.
-void read_landmarks(Reading& reading, const std::string& table, LandmarkGraph& graph, Histories& histories) {
+void read_landmarks(Reading& reading, const std::string& table, LandmarkGraph& graph, Histories& histories,
+                    Markers& markers) {
   reading.rows(table, "SELECT * FROM " + table + " ORDER BY id", [&](Statement& row) {
     Landmark landmark = landmark_in(row, histories);
+    take_marker(markers, landmark);
     landmark.annotations = annotations_in(row, 12);
     graph.add(std::move(landmark));
   });
 }
 
-void read_retired_landmarks(Reading& reading, LandmarkGraph& graph, Histories& histories) {
+void read_retired_landmarks(Reading& reading, LandmarkGraph& graph, Histories& histories, Markers& markers) {
   reading.rows("retired_landmarks", "SELECT * FROM retired_landmarks ORDER BY id", [&](Statement& row) {
     Landmark landmark = landmark_in(row, histories);
+    take_marker(markers, landmark);
     landmark.annotations = annotations_in(row, 13);
     graph.add_retired({std::move(landmark), row.plain_text(12)});
   });
@@ -90,9 +114,13 @@ MissionProgress progress_in(const Statement& row) {
 
 void read_all_landmarks(Reading& reading, LandmarkGraph& graph) {
   Histories histories = read_histories(reading, "landmark");
-  read_landmarks(reading, "landmarks", graph, histories);
-  read_retired_landmarks(reading, graph, histories);
+  Markers markers = read_markers(reading);
+  read_landmarks(reading, "landmarks", graph, histories, markers);
+  read_retired_landmarks(reading, graph, histories, markers);
   check_all_taken(reading, "landmark", histories);
+  reading.in_table("landmark_markers", [&] {
+    if (!markers.empty()) throw StoreError("there is no " + numbered("landmark", markers.begin()->first));
+  });
 }
 
 void read_progress(Reading& reading, SavedMap& map) {
@@ -102,7 +130,8 @@ void read_progress(Reading& reading, SavedMap& map) {
   });
   Histories histories = read_histories(reading, "candidate");
   LandmarkGraph candidates;
-  read_landmarks(reading, "candidates", candidates, histories);
+  Markers none;  // a candidate is never a marker
+  read_landmarks(reading, "candidates", candidates, histories, none);
   check_all_taken(reading, "candidate", histories);
   if (map.progress)
     map.progress->candidates = std::move(candidates);

@@ -16,6 +16,8 @@ void write_content(Database& database, const SavedMap& map);
 [[nodiscard]] OccupancyGrid read_lattice(Reading& reading);
 void read_tiles_within(Reading& reading, const CellBox& box, OccupancyGrid& grid);
 
+// Whether a map needs version 2 for its printed markers.
+[[nodiscard]] bool has_markers(const LandmarkGraph& graph);
 // Landmarks, retired ones, and what is known of both.
 void read_all_landmarks(Reading& reading, LandmarkGraph& graph);
 void read_progress(Reading& reading, SavedMap& map);

@@ -85,6 +85,19 @@ void write_retired_landmarks(Database& database, const LandmarkGraph& graph) {
   }
 }
 
+// Of landmarks and retired ones; a map of version 1 has no such table.
+void write_markers(Database& database, const LandmarkGraph& graph) {
+  if (!has_markers(graph)) return;
+  Statement insert(database, "INSERT INTO landmark_markers VALUES (?, ?, ?)");
+  const auto write = [&](const Landmark& landmark) {
+    if (!landmark.marker) return;
+    insert.bind(landmark.id).bind_text(std::string(name_of(landmark.marker->family)));
+    insert.bind(landmark.marker->number).run();
+  };
+  for (const auto& [id, landmark] : graph.landmarks()) write(landmark);
+  for (const auto& [id, retired] : graph.retired()) write(retired.landmark);
+}
+
 void write_routes(Database& database, const LandmarkGraph& graph) {
   Statement insert(database, "INSERT INTO routes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const auto& [id, route] : graph.routes()) {
@@ -154,6 +167,12 @@ void write_progress(Database& database, const MissionProgress& progress) {
 
 }  // namespace
 
+bool has_markers(const LandmarkGraph& graph) {
+  return std::ranges::any_of(graph.landmarks(), [](const auto& entry) { return entry.second.marker.has_value(); }) ||
+         std::ranges::any_of(graph.retired(),
+                             [](const auto& entry) { return entry.second.landmark.marker.has_value(); });
+}
+
 void write_content(Database& database, const SavedMap& map) {
   Statement insert(database, "INSERT INTO meta VALUES (?, ?)");
   for (const auto& [key, value] : map.properties) insert.bind_text(key).bind_text(value).run();
@@ -161,6 +180,7 @@ void write_content(Database& database, const SavedMap& map) {
   write_tiles(database, map.grid);
   write_landmarks(database, "landmark", map.graph);
   write_retired_landmarks(database, map.graph);
+  write_markers(database, map.graph);
   write_routes(database, map.graph);
   write_clusters(database, map.clusters);
   write_next_ids(database, map);

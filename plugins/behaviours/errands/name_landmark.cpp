@@ -42,6 +42,8 @@ NameLandmark::NameLandmark(const NameConfig& config) : config_(config), as_(conf
   (void)to_landmark_name(config.as, "as");
   if (as_.starts_with("nearest "))
     throw ConfigError(config.as.place, "as: " + in_quotes(as_) + " is no name: it means a landmark of a category");
+  if (marker_name_in(as_))
+    throw ConfigError(config.as.place, "as: " + in_quotes(as_) + " is no name: it means a printed tag");
   if (looks_like_id(as_))
     throw ConfigError(config.as.place, "as: " + in_quotes(as_) + " is no name: it looks like an id");
   if (config.landmark.kind == ConfigValue::Kind::null) return;

@@ -11,6 +11,8 @@ constexpr double kWallHeight_m = 2.5;
 constexpr double kPaper_m = 0.02;  // a tag is at most so far behind the face that it hangs on
 constexpr int kMarginCells = 1;    // of white paper round a tag
 constexpr int kSubpixels = 4;      // along each side of a pixel
+constexpr double kNeighbourCells = 4.0;
+constexpr double kSmallPixel = 0.3;  // of a cell
 constexpr float kFloor = 0.35F;
 constexpr float kCeiling = 0.9F;
 constexpr float kBlack = 0.05F;
@@ -44,6 +46,18 @@ class Picture::HungTag {
 
   [[nodiscard]] double half_m() const { return (0.5 * pattern_.cells + kMarginCells) * cell_m_; }
   [[nodiscard]] bool is_seen_from_front() const { return centre_m_.dot(normal_) < 0.0 && centre_m_.norm() < kReach_m; }
+
+  // Whether a ray passes the tag and its margin by so many cells more, so that its neighbours do too.
+  [[nodiscard]] bool is_passed_by(const Eigen::Vector3d& direction, double cells) const {
+    const Point along(direction.x(), direction.y());
+    const double closing = along.dot(normal_);
+    if (closing >= 0.0) return true;
+    const double t = centre_m_.dot(normal_) / closing;
+    const double half_m = (0.5 * pattern_.cells + kMarginCells + cells) * cell_m_;
+    return std::abs(right_.dot(t * along - centre_m_)) > half_m || std::abs(up_m_ - t * direction.z()) > half_m;
+  }
+  // Cells that a pixel at the tag's centre covers, at least: less where it slants.
+  [[nodiscard]] double cells_in_pixel(double focal_px) const { return centre_m_.norm() / (focal_px * cell_m_); }
 
   // Where a ray from the lens meets the tag or its margin; nothing beside it.
   [[nodiscard]] std::optional<Spot> spot_on(const Eigen::Vector3d& direction) const {
@@ -161,18 +175,29 @@ void Picture::draw_tag(const WorldTag& tag, const TagPattern& pattern, const Pos
     }
 }
 
-float Picture::tag_light(const HungTag& hung, std::size_t pixel) const {
+// Of a part of a pixel, counted from its upper left.
+float Picture::tag_light(const HungTag& hung, std::size_t pixel, int row, int column) const {
   const Eigen::Vector2d focal_px(camera_.focal_x_px, camera_.focal_y_px);
-  float sum = 0.0F;
-  for (int part = 0; part < kSubpixels * kSubpixels; ++part) {
-    const int row = part / kSubpixels;
-    const int column = part % kSubpixels;
-    const Eigen::Vector2d offset_px((column + 0.5) / kSubpixels - 0.5, (row + 0.5) / kSubpixels - 0.5);
-    const Eigen::Vector2d on_plane = on_plane_[pixel].cast<double>() + offset_px.cwiseQuotient(focal_px);
-    const std::optional<HungTag::Spot> spot = hung.spot_on(direction_of(camera_, on_plane));
-    const bool is_hidden = !spot || spot->distance_m > wall_m_[ray_at(spot->bearing_rad)] + kPaper_m;
-    sum += is_hidden ? light_[pixel] : spot->light;
+  const Eigen::Vector2d offset_px((column + 0.5) / kSubpixels - 0.5, (row + 0.5) / kSubpixels - 0.5);
+  const Eigen::Vector2d on_plane = on_plane_[pixel].cast<double>() + offset_px.cwiseQuotient(focal_px);
+  const std::optional<HungTag::Spot> spot = hung.spot_on(direction_of(camera_, on_plane));
+  const bool is_hidden = !spot || spot->distance_m > wall_m_[ray_at(spot->bearing_rad)] + kPaper_m;
+  return is_hidden ? light_[pixel] : spot->light;
+}
+
+// Where cells are larger than pixels, one whose corners are of the same light is so as a whole.
+float Picture::tag_light(const HungTag& hung, std::size_t pixel) const {
+  if (hung.is_passed_by(direction_of(camera_, on_plane_[pixel].cast<double>()), kNeighbourCells)) return light_[pixel];
+  if (hung.cells_in_pixel(camera_.focal_x_px) < kSmallPixel) {
+    const float first = tag_light(hung, pixel, 0, 0);
+    constexpr int kLast = kSubpixels - 1;
+    if (first == tag_light(hung, pixel, 0, kLast) && first == tag_light(hung, pixel, kLast, 0) &&
+        first == tag_light(hung, pixel, kLast, kLast))
+      return first;
   }
+  float sum = 0.0F;
+  for (int part = 0; part < kSubpixels * kSubpixels; ++part)
+    sum += tag_light(hung, pixel, part / kSubpixels, part % kSubpixels);
   return sum / static_cast<float>(kSubpixels * kSubpixels);
 }
 

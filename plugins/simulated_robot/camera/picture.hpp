@@ -6,7 +6,7 @@
 
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
-#include "plugins/simulated_robot/camera/lens.hpp"
+#include "plugins/common/camera/lens.hpp"
 #include "plugins/simulated_robot/camera/tag_pattern.hpp"
 #include "plugins/simulated_robot/surroundings/scene.hpp"
 
@@ -33,6 +33,7 @@ class Picture {
   void draw_surroundings(const Pose2& T_map_camera);
   void draw_tag(const WorldTag& tag, const TagPattern& pattern, const Pose2& T_map_robot);
   [[nodiscard]] float tag_light(const HungTag& hung, std::size_t pixel) const;
+  [[nodiscard]] float tag_light(const HungTag& hung, std::size_t pixel, int row, int column) const;
   [[nodiscard]] Box box_of(const WorldTag& tag, const Pose2& T_robot_tag, double half_m) const;
   [[nodiscard]] std::size_t ray_at(double bearing_rad) const;
 

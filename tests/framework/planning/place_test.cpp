@@ -18,7 +18,7 @@ LandmarkGraph two_landmarks() {
 }
 
 const std::string kWhatAPlaceIs =
-    "; a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, or `nearest CATEGORY`";
+    "; a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, `tag NUMBER`, or `nearest CATEGORY`";
 
 std::string error_of(const std::string& text) {
   try {
@@ -122,6 +122,14 @@ TEST(Place, WhatIsAPlaceOnNoMapIsMalformed) {
   EXPECT_EQ(malformed("nearest "), "place \"nearest\" names no category" + kWhatAPlaceIs);
   for (const char* name : {"desc", "L9", "2 desks", "desk,1", "nearest dock"})
     EXPECT_EQ(malformed(name), "unknown") << name;
+}
+
+TEST(Place, APrintedTagIsNamedByItsNumber) {
+  LandmarkGraph graph = two_landmarks();
+  graph.find(2)->marker = MarkerId{MarkerFamily::tag25h9, 7};
+  EXPECT_EQ(parse_place("tag 7", graph).landmarks, std::vector<LandmarkId>{2});
+  EXPECT_EQ(parse_place("tag 25h9 7", graph).landmarks, std::vector<LandmarkId>{2});
+  EXPECT_THROW((void)parse_place("tag 8", graph), PlaceError);
 }
 
 }  // namespace

@@ -270,5 +270,29 @@ TEST_F(MergedMaps, AMapAndItsLikeAreTheMapItself) {
   EXPECT_EQ(result.joined_routes, 60U);
 }
 
+Landmark tag_at(int number, const Point& at_m) {
+  Landmark tag;
+  tag.marker = MarkerId{MarkerFamily::tag36h11, number};
+  tag.T_map_landmark = {at_m.x(), at_m.y(), 0.0};
+  return tag;
+}
+
+TEST(MergedMap, JoinsTagsOfOneNumberHoweverFarAndNoOthersHoweverNear) {
+  SavedMap a;
+  SavedMap b;
+  a.graph.add(tag_at(1, {0.0, 0.0}));
+  a.graph.add(tag_at(2, {5.0, 0.0}));
+  b.graph.add(tag_at(3, {0.05, 0.0}));
+  b.graph.add(tag_at(2, {3.0, 0.0}));
+  Landmark shape;
+  shape.category = "square";
+  shape.T_map_landmark = {5.0, 0.1, 0.0};
+  b.graph.add(shape);
+  const MergedMap merged = merge_maps(a, b, MergeOptions{});
+  EXPECT_EQ(merged.joined_landmarks, 1U);
+  ASSERT_EQ(merged.map.graph.landmarks().size(), 4U);
+  EXPECT_EQ(merged.map.graph.find_by_name("tag 3")->T_map_landmark.x_m, 0.05);
+}
+
 }  // namespace
 }  // namespace cairn

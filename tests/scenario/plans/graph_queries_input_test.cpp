@@ -158,7 +158,7 @@ TEST_F(GraphQuestions, WhatIsAPlaceOnNoMapIsWrongUsage) {
     return finished.err;
   };
   const std::string place =
-      "; a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, or `nearest CATEGORY`\n";
+      "; a place is x,y or x,y,angle_deg, a landmark's or cluster's id or name, `tag NUMBER`, or `nearest CATEGORY`\n";
   EXPECT_EQ(reported({"--from", "0.6", "--to", "1,1"}), "cairn: place \"0.6\" is one number" + place);
   EXPECT_EQ(reported({"--from", "L1", "--to", "1"}), "cairn: place \"1\" is one number (did you mean \"L1\"?)" + place);
   EXPECT_EQ(reported({"--from", "L1", "--to", "nan,1"}),

@@ -227,5 +227,16 @@ TEST(GraphMl, SaysWhatItCannotHold) {
                                             "1 text: what XML cannot hold (control characters) is written as \"?\""));
 }
 
+TEST(Graphml, KeepsWhichLandmarksArePrintedTags) {
+  LandmarkGraph graph;
+  Landmark tag;
+  tag.marker = MarkerId{MarkerFamily::tag25h9, 7};
+  graph.add(tag);
+  const ExportedGraph exported = graphml_of(graph);
+  EXPECT_NE(exported.text.find(">tag 25h9 7<"), std::string::npos);
+  EXPECT_TRUE(exported.warnings.empty());
+  EXPECT_EQ(parse_graphml(exported.text, "tags.graphml").graph.landmarks(), graph.landmarks());
+}
+
 }  // namespace
 }  // namespace cairn

@@ -1,4 +1,4 @@
-#include "plugins/simulated_robot/camera/lens.hpp"
+#include "plugins/common/camera/lens.hpp"
 
 #include <cmath>
 
