@@ -85,9 +85,11 @@ TEST(MarkerMission, AKidnappedRobotKnowsWhereItIsByATag) {
   tag.T_map_landmark = {7.0, 2.6, radians(180.0)};
   map.graph.add(tag);
   save_map(out / "hall.cairn", map);
-  const Finished run = run_cairn({"run", tagged_home(out).string(), "--out", out.string(), "--json", "--set",
-                                  "start.at_m=[4.6, 2.3]", "--set", "start.angle_deg=8", "--set",
-                                  "steps=[{find_myself: }]", "--localize-in", (out / "hall.cairn").string()});
+  const Finished run =
+      run_cairn({"run", tagged_home(out).string(), "--out", out.string(), "--json", "--set", "start.at_m=[5.2, 2.8]",
+                 "--set", "start.angle_deg=-6", "--set", "steps=[{find_myself: }]", "--set",
+                 "robot=" + source_folder() + "/config/robots/pioneer3dx_camera.yaml", "--localize-in",
+                 (out / "hall.cairn").string()});
   ASSERT_EQ(run.exit_status, 0) << run.err << run.out;
   const json summary = json::parse(run.out);
   EXPECT_EQ(summary["localisation"]["trust"], "tracking") << run.out;
