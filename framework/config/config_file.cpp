@@ -22,6 +22,7 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kMaxFileBytes = std::size_t{16} << 20U;
+constexpr std::string_view kPackedByGzip = "\x1f\x8b";
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxValues = 1'000'000;
 constexpr std::string_view kInScalars("\n\t\r\0", 4);  // where a byte 0 is wrong, it is said by what it is wrong for
@@ -250,6 +251,15 @@ std::string near_files(const std::filesystem::path& file) {
   return did_you_mean(file.filename().string(), names);
 }
 
+std::string unpacked(const std::filesystem::path& file, const SourcePlace& place) {
+  try {
+    return exchange::text_of_file(file, kMaxFileBytes);
+  } catch (const ExchangeError& error) {
+    const std::string_view sentence = error.what();
+    throw ConfigError(place, std::string(sentence.substr(file.string().size() + 2)));
+  }
+}
+
 std::string text_of(const std::filesystem::path& file) {
   const SourcePlace place{file.string(), 0, 0};
   std::error_code error;
@@ -266,7 +276,8 @@ std::string text_of(const std::filesystem::path& file) {
     if (text.size() > kMaxFileBytes) throw ConfigError(place, "larger than 16 MiB");
   }
   if (stream.bad()) throw ConfigError(place, "cannot be read to its end");
-  return text;
+  return text.starts_with(kPackedByGzip) && std::filesystem::is_regular_file(file, error) ? unpacked(file, place)
+                                                                                          : text;
 }
 
 void check_quotes(const std::string& text, const std::string& file) {

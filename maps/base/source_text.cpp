@@ -14,7 +14,6 @@
 namespace cairn::exchange {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{4} << 30;
 constexpr unsigned kBlock = 1U << 20U;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -58,7 +57,7 @@ bool may_never_open(const std::filesystem::path& file) {
   return !(name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/"));
 }
 
-std::string text_of_file(const std::filesystem::path& file) {
+std::string text_of_file(const std::filesystem::path& file, std::size_t max_bytes) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw ExchangeError(file.string() + ": no such file");
@@ -70,7 +69,8 @@ std::string text_of_file(const std::filesystem::path& file) {
   // Block by block: what is not a plain file has no size to ask for. What is not compressed is read as it is.
   while (true) {
     const std::size_t before = text.size();
-    if (before > kMaxBytes) throw ExchangeError(file.string() + ": is larger than 4 GB");
+    if (before > max_bytes)
+      throw ExchangeError(fmt::format("{}: is larger than {} MiB", file.string(), max_bytes >> 20U));
     text.resize(before + kBlock);
     const int got = gzread(in.get(), text.data() + before, kBlock);
     text.resize(before + static_cast<std::size_t>(std::max(0, got)));

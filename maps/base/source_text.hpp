@@ -49,8 +49,9 @@ class SourceText {
 [[nodiscard]] bool may_never_open(const std::filesystem::path& file);
 
 // All bytes of a file, unpacked where it is compressed by gzip (its first bytes say so). Throws ExchangeError: no such
-// file, a folder, larger than 4 GB (unpacked), cut off, damaged, not readable to its end.
-[[nodiscard]] std::string text_of_file(const std::filesystem::path& file);
+// file, a folder, larger than that (unpacked), cut off, damaged, not readable to its end.
+inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 30;
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& file, std::size_t max_bytes = kMaxFileBytes);
 
 // The offset of the first byte that does not belong to a UTF-8 character, or npos.
 [[nodiscard]] std::size_t first_not_utf8(std::string_view text);

@@ -112,7 +112,8 @@ class LandmarkGraph {
   // "L12", its name or "tag 7"; an id wins over a landmark that is named like one, the lower id over a namesake, a name
   // over a marker.
   [[nodiscard]] const Landmark* find_by_name(const std::string& name_or_id) const;
-  [[nodiscard]] const Landmark* find_marker(const MarkerId& marker) const;  // the lower id over another with that marker
+  [[nodiscard]] const Landmark* find_marker(
+      const MarkerId& marker) const;  // the lower id over another with that marker
   [[nodiscard]] const Route* find_route(RouteId id) const;
   // The landmark whose position is nearest, at most within_m away, or null; ties go to the lower id.
   [[nodiscard]] const Landmark* nearest(const Point& p_map, double within_m) const;

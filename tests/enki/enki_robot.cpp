@@ -39,7 +39,8 @@ void EnkiRobot::begin(const std::vector<std::string>& words, const std::filesyst
   arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(word.c_str());
   arguments.push_back(nullptr);
-  // Linux shares the processors out by sessions: neither a robot nor what drives it waits for the neighbours of its test.
+  // Linux shares the processors out by sessions: neither a robot nor what drives it waits for the neighbours of its
+  // test.
   (void)::setsid();
   process_ = ::fork();
   if (process_ == 0) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "framework/config/config_value.hpp"
+#include "maps/base/deflate.hpp"
 #include "tests/framework/config/config_test_support.hpp"
 
 namespace cairn {
@@ -187,6 +188,19 @@ TEST(ConfigFile, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(reading("inner"), "inner: a folder, not a file");
   (void)folder.write("huge.yaml", std::string((16U << 20U) + 1, ' '));
   EXPECT_EQ(reading("huge.yaml"), "huge.yaml: larger than 16 MiB");
+}
+
+TEST(ConfigFile, ReadsWhatGzipHasPacked) {
+  const TestFolder folder;
+  const std::string packed = gzip_member("a: 1\nb: [2, x]\n");
+  const auto file = folder.write("robot.yaml.gz", packed);
+  EXPECT_EQ(read_config_file(file).find("b")->place.text(), file.string() + ":2:4");
+  const auto reading = [&](const std::string& name, const std::string& text) {
+    (void)folder.write(name, text);
+    return folder.without_folder(error_of([&] { (void)read_config_file(folder.path() / name); }));
+  };
+  EXPECT_EQ(reading("cut.gz", packed.substr(0, packed.size() - 12)), "cut.gz: the compressed file is cut off");
+  EXPECT_EQ(reading("bomb.gz", gzip_member(std::string((16U << 20U) + 1, ' '))), "bomb.gz: is larger than 16 MiB");
 }
 
 TEST(ConfigFile, DevicesAreNoFiles) {
