@@ -144,6 +144,7 @@ void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::s
   if (has_passed) forget_unreachable();
   Tried& tried = at(task.about);
   ++tried.tries;
+  tried.failures = has_passed ? 0 : tried.failures + 1;
   tried.why = why;
   tried.was_passed = tried.was_passed || has_passed;
   // One that was passed and is still not known to be open is not driven through for ever.
@@ -156,7 +157,9 @@ std::optional<ExploreTask> PassageTasks::passed_on(const std::vector<Point>& pat
   for (double s = 0.0; s < length_m; s += kStep_m) {
     const Point p = motion::point_along(path, s);
     for (const Tried& tried : tried_) {
-      if (!tried.was_passed || !tried.heard || (p - tried.heard->middle_m).norm() > 0.5 * tried.heard->width_m)
+      const bool is_blocked = tried.failures >= settings_.max_tries;  // now
+      if (!tried.was_passed || is_blocked || !tried.heard ||
+          (p - tried.heard->middle_m).norm() > 0.5 * tried.heard->width_m)
         continue;
       HeardOpening through = *tried.heard;
       const Point ahead = motion::point_along(path, std::min(length_m, s + radius_m)) - p;
@@ -173,7 +176,8 @@ bool PassageTasks::retry() {
   has_retried_ = true;
   bool is_any = false;
   for (Tried& tried : tried_) {
-    is_any = is_any || tried.is_unreachable;
+    is_any = is_any || tried.is_unreachable || tried.failures >= settings_.max_tries;
+    tried.failures = 0;
     if (!tried.is_given_up || tried.was_passed || !tried.heard || tried.tries >= settings_.max_tries) continue;
     if (tried.is_suspect && tried.heard->width_m <= 0.0) continue;  // a wall
     tried.is_given_up = false;

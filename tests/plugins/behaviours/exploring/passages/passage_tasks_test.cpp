@@ -151,6 +151,23 @@ TEST(PassageTasks, TheWayBackLeadsThroughAPassageThatWasPassedTheOtherWayRound) 
   EXPECT_FALSE(passing.tasks.passed_on({{0.0, 0.0}, {0.5, 0.0}}, kRadius_m)) << "not on this path";
 }
 
+TEST(PassageTasks, OneThatWasPassedAndIsBlockedNowIsNotDrivenIntoForEver) {
+  Passing passing(5);
+  const ExploreTask there = *passing.look(0.7);
+  passing.tasks.record(there, true, {});
+  const std::vector<Point> path{there.lookout, there.beyond_m};
+  int drives = 0;
+  while (drives < 100 && passing.tasks.passed_on(path, kRadius_m)) {
+    passing.tasks.record(there, false, "blocked");
+    ++drives;
+  }
+  EXPECT_EQ(drives, PassageSettings{}.max_tries);
+  EXPECT_TRUE(passing.tasks.retry());
+  EXPECT_TRUE(passing.tasks.passed_on(path, kRadius_m)) << "once more before the end";
+  passing.tasks.record(there, true, {});
+  EXPECT_TRUE(passing.tasks.passed_on(path, kRadius_m));
+}
+
 TEST(PassageTasks, ASentenceNamesThePlaceTheWidthAndTheReason) {
   EXPECT_EQ(sentence_of(NotEntered{{2.4, 4.0}, 0.4, true, "too narrow for 0.44 m"}),
             "opening at (2.40, 4.00), 0.40 m wide: too narrow for 0.44 m");
