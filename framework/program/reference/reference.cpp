@@ -107,6 +107,8 @@ std::string about_kind(PluginKind kind) {
   if (kind == PluginKind::route_planner)
     return "Plans routes over the landmark graph: for a planner that names it, or alone as the mission's " +
            code("planner") + ".";
+  if (kind == PluginKind::marker_detector)
+    return "The mission's " + code("markers.detector") + ": finds printed markers in the robot's pictures.";
   for (const FieldSpec& field : schema_of<MissionConfig>().fields)
     if (field.plugin_kind == name) return "The mission's " + code(field.key) + ": " + field.meaning + ".";
   return "";

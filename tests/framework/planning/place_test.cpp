@@ -98,8 +98,7 @@ TEST(Place, AnUnknownCategoryNamesTheNearestKnownOne) {
 TEST(Place, AnUnknownPlaceSaysWhatAPlaceIs) {
   EXPECT_EQ(error_of("desc"),
             "unknown place \"desc\" (did you mean \"desk\"?); a place is x,y or x,y,angle_deg, a landmark's or "
-            "cluster's id or name, "
-            "or `nearest CATEGORY`");
+            "cluster's id or name, `tag NUMBER`, or `nearest CATEGORY`");
 }
 
 TEST(Place, WhatIsAPlaceOnNoMapIsMalformed) {
