@@ -44,12 +44,12 @@ std::vector<MarkerPose> poses_of(const MarkerSighting& sighting) {
   return poses;
 }
 
+}  // namespace
+
 bool are_apart(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm() >= kApart_m ||
          std::abs(wrap_angle(a.theta_rad - b.theta_rad)) >= kApart_rad;
 }
-
-}  // namespace
 
 std::vector<MarkerId> MarkerTracker::update(std::span<const MarkerSighting> sightings, const PoseEstimate& pose,
                                             std::size_t pose_number) {
@@ -70,7 +70,7 @@ void MarkerTracker::begin(Track& track, const Kept& kept) {
   track.hypotheses.clear();
   track.kept = {kept};
   track.strangers = 0;
-  track.least_pose_covariance = kept.pose_covariance;
+  track.min_pose_covariance = kept.pose_covariance;
   for (const MarkerPose& pose : poses_of(kept.sighting)) {
     const InMap seen = in_map(pose, kept.T_map_robot, kept.pose_covariance);
     track.hypotheses.push_back({seen.state, seen.covariance, 0.0});
@@ -114,8 +114,8 @@ bool MarkerTracker::add(Track& track, const Kept& kept) {
   std::ranges::stable_sort(track.hypotheses, {}, &Hypothesis::misfit);
   if (track.hypotheses.size() == 2 && track.hypotheses[1].misfit - track.hypotheses[0].misfit > kDecides)
     track.hypotheses.pop_back();
-  if (kept.pose_covariance.trace() < track.least_pose_covariance.trace())
-    track.least_pose_covariance = kept.pose_covariance;
+  if (kept.pose_covariance.trace() < track.min_pose_covariance.trace())
+    track.min_pose_covariance = kept.pose_covariance;
   if (track.kept.size() == kMaxKept) track.kept.pop_back();
   track.kept.push_back(kept);
   return true;
@@ -139,7 +139,7 @@ std::optional<MarkerTracker::Estimate> MarkerTracker::estimate(const MarkerId& m
   const Hypothesis& best = track.hypotheses.front();
   // What the robot did not know of its own place all sightings share.
   return Estimate{{best.state[0], best.state[1], best.state[2]},
-                  best.covariance + track.least_pose_covariance,
+                  best.covariance + track.min_pose_covariance,
                   static_cast<int>(track.kept.size()),
                   track.hypotheses.size() == 1};
 }

@@ -37,7 +37,7 @@ struct MissionModules {
 };
 
 // Of making modules, which may wait.
-struct Making {
+struct BuildOptions {
   const std::atomic<bool>* cancel = nullptr;                   // ends what is under way: a log that is read, a wait
   std::function<void(const std::string& sentence)> on_wait{};  // what is waited for, by another thread
 };
@@ -46,7 +46,7 @@ struct Making {
 // mapper begins with nothing, and where the sensor begins is not where the robot is said to be. Throws ConfigError or
 // ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
-                                           const SavedMap* resume = nullptr, const Making& making = {},
+                                           const SavedMap* resume = nullptr, const BuildOptions& options = {},
                                            const std::optional<LocalizerStart>& start = std::nullopt);
 
 // The mission's localizer alone.

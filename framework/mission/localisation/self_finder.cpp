@@ -1,6 +1,9 @@
 #include "framework/mission/localisation/self_finder.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "framework/landmarks/marker_tracker.hpp"
 
 namespace cairn {
 namespace {
@@ -36,14 +39,19 @@ void SelfFinder::update(const Observation& observation, const Pose2& T_local_rob
 
 void SelfFinder::see_markers(const Observation& observation, const Pose2& T_local_robot, const LandmarkGraph& known) {
   for (const MarkerSighting& sighting : observation.markers) {
+    const auto is_same = [&](const MarkerSighting& other) { return other.marker == sighting.marker; };
+    if (std::ranges::count_if(observation.markers, is_same) > 1) continue;  // no one marker
     const Landmark* const landmark = sighting.mirrored ? nullptr : known.find_marker(sighting.marker);
     if (landmark == nullptr || sighting.pose.covariance(2, 2) > kMarkerAngle_rad * kMarkerAngle_rad) continue;
     const Pose2 guess = landmark->T_map_landmark * inverse(T_local_robot * sighting.pose.T_robot_marker);
+    if (marker_guess_ && marker_guess_->marker == sighting.marker &&
+        !are_apart(marker_guess_->T_local_robot, T_local_robot))
+      continue;
     if (marker_guess_) {
-      const Pose2 off = inverse(*marker_guess_ * T_local_robot) * (guess * T_local_robot);
+      const Pose2 off = inverse(marker_guess_->T_map_local * T_local_robot) * (guess * T_local_robot);
       if (off.position().norm() < kMarkersAgree_m && std::abs(off.theta_rad) < kMarkersAgree_rad) by_marker_ = guess;
     }
-    marker_guess_ = guess;
+    marker_guess_ = MarkerGuess{sighting.marker, guess, T_local_robot};
   }
 }
 

@@ -5,7 +5,8 @@
 // taken kAnswerAfter_s later by the mission's clock, and waited for if it is late: the same run gives the same bytes.
 // The compass, where there is one, limits how the two frames can be turned to each other.
 //
-// A printed marker of the map ends the search: two sightings that agree, from pictures that leave no second pose open.
+// A printed marker of the map ends the search: two sightings that agree, of two
+// markers or from places some way apart, from pictures that leave no second pose open.
 #pragma once
 
 #include <future>
@@ -61,7 +62,12 @@ class SelfFinder {
   bool has_compass_;
   Point compass_sum_{0.0, 0.0};  // of unit vectors: by how much the map's frame is turned from the robot's own
   PoseBelief belief_;
-  std::optional<Pose2> marker_guess_;  // of T_map_local, by the marker seen last
+  struct MarkerGuess {
+    MarkerId marker;
+    Pose2 T_map_local;
+    Pose2 T_local_robot;  // when it was seen
+  };
+  std::optional<MarkerGuess> marker_guess_;  // by the marker that counted last
   std::optional<Pose2> by_marker_;
   int searches_ = 0;
   std::optional<Search> running_;  // last: its thread uses search_

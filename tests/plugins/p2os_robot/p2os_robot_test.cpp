@@ -258,6 +258,24 @@ TEST_F(P2osRobot, MotorsThatAreSwitchedOffHoldItUntilAPersonSwitchesThemOn) {
   EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
 }
 
+TEST_F(P2osRobot, MotorsThatAreSwitchedOffWhileTheLineIsSilentStayOff) {
+  const auto driven = connected();
+  drive(*driven, 0.5);
+  pioneer.is_silent = true;
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  pioneer.flags = 0;
+  std::thread again([this] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    pioneer.is_silent = false;
+  });
+  (void)next_of(*driven);
+  again.join();
+  drive(*driven, 1.5);
+  EXPECT_THAT(next_of(*driven).stopped_by, HasSubstr("its motors, which are switched off"));
+  EXPECT_EQ(pioneer.v_mps(), 0.0);
+  EXPECT_EQ(pioneer.enables(), 1) << "not by Cairn";
+}
+
 TEST_F(P2osRobot, ItsEmergencyButtonHoldsIt) {
   const auto driven = connected();
   drive(*driven, 0.5);
