@@ -67,6 +67,14 @@ std::vector<PoseHypothesis> PoseSearch::find(const Surroundings& surroundings,
   return found;
 }
 
+PoseHypothesis PoseSearch::at(const Surroundings& surroundings, const Pose2& T_map_robot) const {
+  if (surroundings.echoes_m.empty()) return {T_map_robot};
+  const std::array<SearchLayer, 2> layers = {{{&occupied_, surroundings.echoes_m}, {&free_, surroundings.free_m}}};
+  const SearchWindow window{T_map_robot, settings_.beside_m, settings_.beside_rad};
+  const std::vector<ScanMatch> best = search_distinct(layers, nullptr, window, {.min_score = 0.0, .at_most = 1});
+  return aligned(best.empty() ? ScanMatch{T_map_robot} : best.front(), surroundings);
+}
+
 double PoseSearch::contradicted_ratio(const Surroundings& surroundings, const Pose2& T_map_robot) const {
   const auto value = [&](const FieldPyramid& pyramid, const Point& point_m) {
     const LikelihoodField& field = pyramid.field();

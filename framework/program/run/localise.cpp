@@ -12,8 +12,6 @@
 namespace cairn {
 namespace {
 
-constexpr const char* kFindMyself = "find_myself";
-
 Pose2 pose_of(const std::string& text) {
   const std::vector<double> numbers = coordinates_in(text).value_or(std::vector<double>{});
   const bool are_finite = std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
