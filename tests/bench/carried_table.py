@@ -108,8 +108,9 @@ def continued(out, world, seed, saved, is_carried):
             continue  # in a wall
         if "refused" in done:
             sys.exit(done["refused"])
-        return row | {"driven_m": done["distance_m"] - before_m, "looks": done["start_check"],
-                      "events": done["events"], "touches": done["collisions"]}
+        return row | {"driven_m": done["distance_m"] - before_m, "start_check": done["start_check"],
+                      "events": done["events"], "touches": done["collisions"],
+                      "error_m": done.get("pose_error", {}).get("last_m"), "found": done.get("localisation")}
 
 
 def map_world(out, world, seed):
