@@ -24,7 +24,7 @@ struct StartLook {
 
 struct StartCheckRules {
   // A look is against the pose when at least so much contradicts it and it scores at most so much, ...
-  double contradicted_ratio = 0.1;
+  double contradicted_ratio = 0.08;
   double max_score = 0.72;
   // ... or when a place elsewhere scores clearly more, and is contradicted by half of what contradicts the pose.
   double contradicted_ratio_beside = 0.05;

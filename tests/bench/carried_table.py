@@ -12,6 +12,7 @@ import concurrent.futures, json, math, pathlib, random, sqlite3, statistics, str
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CAIRN = ROOT / "build/release/bin/cairn"
 CONTINUED_S = 80
+WRONG_M = 0.5
 SAVED = ["early", "half", "nearly", "mapped", "patrolled"]
 WORLDS = {  # world, robot, start of the run that maps it, box of the places that a robot may be carried to
     "office": ("office", "pioneer1", (0.6, 0.6), (0, 0, 6, 5)),
@@ -118,10 +119,32 @@ def map_world(out, world, seed):
         run(out / f"{world}_{seed}", world, seed, 900)
 
 
+def print_table(rows):
+    print("| world | stayed | of these false alarms | carried | noticed | within 5 m | driven m, median | found again | wrongly |"
+          " touches |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|")
+    for world in [*dict.fromkeys(row["world"] for row in rows), "all"]:
+        mine = [row for row in rows if world in ("all", row["world"])]
+        stayed = [row for row in mine if not row["carried"]]
+        carried = [row for row in mine if row["carried"]]
+        noticed = [row for row in carried if row["start_check"]["trust"] == "carried"]
+        at_m = [row["start_check"]["looks"][-1]["driven_m"] for row in noticed]
+        found = [row for row in noticed if row["found"]["trust"] == "tracking"]
+        print(f"| {world} | {len(stayed)} | {sum(row['start_check']['trust'] == 'carried' for row in stayed)} | {len(carried)} | "
+              f"{len(noticed)} | {sum(m <= 5 for m in at_m)} | {statistics.median(at_m):.1f} | {len(found)} | "
+              f"{sum(row['error_m'] > WRONG_M for row in found)} | {sum(row['touches'] for row in mine)} |")
+    print("\n| looks | number | score: least, median, most | contradicted %: least, median, most |\n|---|---:|---:|---:|")
+    for name, is_carried in (("stayed", False), ("carried", True)):
+        looks = [look["believed"] for row in rows if row["carried"] == is_carried for look in row["start_check"]["looks"]]
+        of = lambda key, by, digits: ", ".join(f"{by * f([look[key] for look in looks]):.{digits}f}"
+                                               for f in (min, statistics.median, max))
+        print(f"| {name} | {len(looks)} | {of('score', 1, 2)} | {of('contradicted_ratio', 100, 1)} |")
+
+
 def main():
     out = pathlib.Path(sys.argv[1]).resolve()
     first, runs = int(sys.argv[2]), int(sys.argv[3])
-    worlds = sys.argv[4:] or list(WORLDS)
+    worlds = sys.argv[4:] or ["office", "my_flat", "joined_rooms", "home_laser"]
     jobs = [(world, seed) for seed in range(first, first + runs) for world in worlds]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         list(pool.map(lambda job: map_world(out, *job), jobs))
@@ -129,6 +152,7 @@ def main():
                              [(*job, saved, is_carried) for job in jobs for saved in SAVED
                               for is_carried in (False, True) if (out / f"{job[0]}_{job[1]}/{saved}.cairn").exists()]))
     (out / f"rows_{first}.json").write_text(json.dumps(rows, indent=1))
+    print_table(rows)
 
 
 main()
