@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "framework/config/coordinates.hpp"
+#include "framework/mission/modules.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
