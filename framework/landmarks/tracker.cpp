@@ -63,6 +63,8 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
   graph_ = std::move(graph);
   candidates_ = std::move(candidates);
   driven_ = DrivenPath(std::move(driven_path), driven_.max_poses());
+  markers_ = {};
+  poses_ = 0;
   name_marker_categories();
 }
 

@@ -142,6 +142,16 @@ std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const Module
   return mapper;
 }
 
+// Null where its module is not installed.
+std::shared_ptr<Behaviour> build_find_myself(const Mission& mission, const ModuleLibrary& library, std::size_t index) {
+  if (library.find_any(kFindMyself) == nullptr) return nullptr;
+  TreeNode node;
+  node.name = node.choice.name = kFindMyself;
+  node.choice.config.kind = ConfigValue::Kind::map;
+  node.choice.config.place = node.place = mission.config.steps.place;
+  return build_behaviour(mission, library, node, index);
+}
+
 }  // namespace
 
 std::uint64_t module_seed(std::int64_t mission_seed, PluginKind kind, std::size_t index) {
@@ -224,6 +234,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     throw missing.front();
   for (const TreeNode* node : behaviours_of(mission.steps))
     built.behaviours.push_back(build_behaviour(mission, library, *node, built.behaviours.size()));
+  if (resume != nullptr) built.find_myself = build_find_myself(mission, library, built.behaviours.size());
   return built;
 }
 
