@@ -79,32 +79,6 @@ class FaultySensor : public Sensor {
   bool is_simulated_;
 };
 
-TEST_F(MissionModulesTest, ACheckFindsEveryModuleThatIsWrong) {
-  EXPECT_TRUE(check_modules(mission_, library_).empty());
-  mission_.config.localizer.name = "no_localizer";
-  mission_.steps.front().choice.name = "no_step";
-  const std::vector<std::string> errors = check_modules(mission_, library_);
-  EXPECT_THAT(errors, ElementsAre(HasSubstr("no_localizer"), HasSubstr("no_step")));
-}
-
-class FaultySensor : public Sensor {
- public:
-  SensorStep next(const Budget&) override {
-    SensorStep step;
-    step.state = SensorState::fault;
-    step.reason = "the robot cannot start in a wall";
-    return step;
-  }
-  [[nodiscard]] const GroundTruthSource* truth() const override { return is_simulated ? &truth_ : nullptr; }
-  bool is_simulated = true;
-
- private:
-  struct NoTruth : GroundTruthSource {
-    [[nodiscard]] GroundTruth ground_truth() const override { return {}; }
-  };
-  NoTruth truth_;
-};
-
 TEST_F(MissionModulesTest, ACheckFindsAStartInAWorldThatTheSensorRefuses) {
   Registrar registrar;
   registrar.add<Sensor, NoConfig>("faulty_sensor", "has a fault at once", [](const NoConfig&, const SensorContext&) {
