@@ -226,7 +226,7 @@ TEST_F(P2osRobot, ACableThatIsPulledWhileItTurnsStopsItByItsWatchdogAndForGood) 
   EXPECT_EQ(driven.next({}).state, SensorState::observation) << "it is connected to again";
   again.join();
   drive(driven, 1.0);
-  EXPECT_TRUE(comes_to_speed(*driven));
+  EXPECT_TRUE(comes_to_speed(driven));
   std::filesystem::remove(cable);
 }
 

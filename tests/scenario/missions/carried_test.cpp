@@ -77,8 +77,8 @@ TEST(Carried, TheMapIsLeftAloneUntilTheRobotHasFoundItself) {
   save_map(folder / "moved.cairn", moved);
   const std::string before = text_of_file(folder / "moved.cairn");
   const double begin_s = moved.progress->time_s;
-  const Finished finished = run_office(folder, {"--resume", (folder / "moved.cairn").string(), "--set",
-                                                "at_most_s=" + std::to_string(begin_s + 30.0)});
+  const Finished finished = run_office(
+      folder, {"--resume", (folder / "moved.cairn").string(), "--set", "at_most_s=" + std::to_string(begin_s + 30.0)});
   const auto summary = nlohmann::json::parse(finished.out);
   ASSERT_EQ(summary["start_check"]["trust"], "carried");
   ASSERT_EQ(summary["localisation"]["trust"], "lost");
