@@ -9,10 +9,11 @@ namespace {
 
 constexpr double kApart_m = 0.15;  // of the robot, between sightings that count
 constexpr double kApart_rad = radians(12.0);
-constexpr double kFar = 30.0;          // squared Mahalanobis distance of a sighting that is none of this place
-constexpr int kMoved = 4;              // of these in a row: the marker hangs elsewhere now
-constexpr double kDecides = 9.0;       // difference of misfits
-constexpr std::size_t kMaxKept = 200;  // sightings of a marker
+constexpr double kFar = 30.0;     // squared Mahalanobis distance of a sighting that is none of this place
+constexpr int kMoved = 4;         // of these in a row: the marker hangs elsewhere now
+constexpr double kDecides = 9.0;  // difference of misfits
+// Of a marker; undecided ones count after four times `confirm_sightings`.
+constexpr std::size_t kMaxKept = 200;
 
 struct InMap {
   Eigen::Vector3d state;
