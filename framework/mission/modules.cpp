@@ -127,7 +127,7 @@ std::optional<Pose2> start_from_sensor(const MissionConfig& config, const Sensor
   const StartWait wait(sensor, options.on_wait);
   const auto start = fenced("sensor", config.sensor.name, [&] { return sensor.start(); });
   if (is_cancelled() && !was_cancelled)
-    throw ConfigError(config.sensor.config.place, config.sensor.name + " was asked where the robot begins");
+    throw ConfigError(config.sensor.config.place, config.sensor.name + " was still being asked where the robot begins");
   return start;
 }
 

@@ -1,6 +1,7 @@
 #include "plugins/ros2_robot/network.hpp"
 
 #include <fmt/format.h>
+#include <netdb.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -105,6 +106,17 @@ ChosenNetwork choose_network(const Config& config, const Environment& environmen
   if (config.network == Network::localhost)
     (network.peers.empty() ? network.is_local : network.is_without_multicast) = true;
   return chosen;
+}
+
+std::vector<std::string> unknown_peers(const NetworkChoice& network) {
+  std::vector<std::string> unknown;
+  std::ranges::copy_if(network.peers, std::back_inserter(unknown), [](const std::string& peer) {
+    addrinfo* found = nullptr;
+    const bool is_known = ::getaddrinfo(peer.c_str(), nullptr, nullptr, &found) == 0;
+    if (is_known) ::freeaddrinfo(found);
+    return !is_known;
+  });
+  return unknown;
 }
 
 }  // namespace cairn::ros2_robot

@@ -25,4 +25,7 @@ struct ChosenNetwork {
 // std::invalid_argument with the variable, its value and what is allowed.
 [[nodiscard]] ChosenNetwork choose_network(const Config& config, const Environment& environment = process_environment);
 
+// The peers that no name service knows: DDS would leave them out without a word.
+[[nodiscard]] std::vector<std::string> unknown_peers(const NetworkChoice& network);
+
 }  // namespace cairn::ros2_robot

@@ -83,6 +83,8 @@ bool RosLink::connect(const Budget& budget, std::string& why) {
     dds_subscription_matched_status_t matched{};
     (void)dds_get_subscription_matched_status(odometry_.get(), &matched);
     if (matched.current_count > 0) {
+      is_reading_ = true;
+      velocity_->meet(live::now_s());
       observer_.interrupt();
       ranges_until_s_ = live::now_s() + config_.stop_when.reconnect_s;
       return true;
@@ -95,6 +97,7 @@ bool RosLink::connect(const Budget& budget, std::string& why) {
 
 // Nothing is deleted: who was there may come back, and discovery takes seconds.
 void RosLink::disconnect() {
+  is_reading_ = false;
   observer_.forget_readings();
 }
 
@@ -125,7 +128,16 @@ void RosLink::make_guard() {
   guard_ = guard_of({chosen_.network, config_.command, silence}, guard_program_);
 }
 
-std::string RosLink::nobody_there(const std::string& topic) const {
+const std::string& RosLink::about_peers() {
+  if (!about_peers_) {
+    const std::vector<std::string> unknown = unknown_peers(chosen_.network);
+    about_peers_ =
+        unknown.empty() ? "" : fmt::format("no name service knows the peer {}", fmt::join(unknown, ", nor "));
+  }
+  return *about_peers_;
+}
+
+std::string RosLink::nobody_there(const std::string& topic) {
   std::set<std::string> offered;
   bool has_topic = false;
   for (const Endpoint& endpoint : participant_->publishers()) {
@@ -138,8 +150,8 @@ std::string RosLink::nobody_there(const std::string& topic) const {
   }
   if (has_topic) return fmt::format("{} is there, but does not fit: {}", topic, fmt::join(offered, ", "));
   if (offered.empty())
-    return fmt::format("nobody publishes anything in domain {}: is ROS_DOMAIN_ID the same, and the network?",
-                       chosen_.network.domain);
+    return fmt::format("nobody publishes anything in domain {}: {}", chosen_.network.domain,
+                       about_peers().empty() ? "is ROS_DOMAIN_ID the same, and the network?" : about_peers());
   const std::vector<std::string> all(offered.begin(), offered.end());
   const std::vector<std::string> some(all.begin(), all.begin() + std::min<std::ptrdiff_t>(std::ssize(all), kMaxListed));
   return fmt::format("nobody publishes {}{}; there are {}{}", topic, did_you_mean(topic, all), fmt::join(some, ", "),
@@ -211,7 +223,11 @@ void RosLink::take_odometry(std::vector<Observation>& seen) {
     check_publisher(publisher, arrived_s);
     const auto pose = pose_of(odometry.pose.pose);
     if (pose) display_.observed(odometry.header, *pose);
-    if (auto observation = observer_.take(message_of(odometry), arrived_s)) seen.push_back(std::move(*observation));
+    auto observation = observer_.take(message_of(odometry), arrived_s);
+    if (!observation) return;
+    if (observation->stopped_by.empty() && !velocity_->is_heard(arrived_s))
+      observation->stopped_by = "a base that nobody has met: no one listens to " + config_.command.topic;
+    seen.push_back(std::move(*observation));
   });
 }
 
@@ -226,11 +242,12 @@ void RosLink::check_publisher(dds_instance_handle_t publisher, double now_s) {
 
 std::vector<ConnectionPart> RosLink::parts() {
   if (!participant_) make_endpoints();
-  const TopicReport report(*participant_, observer_.heard(), live::now_s());
+  const TopicReport report(*participant_, is_reading_ ? &observer_.heard() : nullptr, live::now_s());
   std::vector<ConnectionPart> parts{
       report.of_network(fmt::format("ROS domain {}", chosen_.network.domain), config_.command.topic)};
   if (!chosen_.variables.empty())
     parts.back().values.push_back({"environment", fmt::format("{}", fmt::join(chosen_.variables, ", "))});
+  if (!about_peers().empty()) parts.back().problem = about_peers();
   parts.push_back(report.of_reader(odometry_, Importance::steady));
   for (std::size_t i = 0; i < config_.ranges.size(); ++i) {
     parts.push_back(report.of_reader(ranges_.readers()[i], Importance::steady));

@@ -54,7 +54,9 @@ class RosLink final : public live::BaseLink {
   // Makes one when there is none any more.
   void make_guard();
   // Of a topic that nobody publishes, or not as it should be.
-  [[nodiscard]] std::string nobody_there(const std::string& topic) const;
+  [[nodiscard]] std::string nobody_there(const std::string& topic);
+  // Peers that no name service knows; empty: all are known. Asks once, which may take seconds.
+  [[nodiscard]] const std::string& about_peers();
   // Throws std::runtime_error when nobody has published a topic with ranges since it was connected, for as long as it
   // waits for a robot.
   void check_ranges_are_there(double now_s);
@@ -82,6 +84,8 @@ class RosLink final : public live::BaseLink {
   double publisher_changed_s_ = 0.0;
   ros::RobotObserver observer_;
   DisplayTopics display_;
+  std::optional<std::string> about_peers_;
+  bool is_reading_ = false;               // since the odometry was met
   std::optional<double> ranges_until_s_;  // they are waited for; none: they were there
 };
 

@@ -137,6 +137,8 @@ Finding LiveCheck::echoes() const {
 }
 
 Finding LiveCheck::readings() const {
+  if (std::ranges::all_of(seen_, [](const Seen& seen) { return seen.observation.ranges.empty(); }))
+    return bad("readings", "none has come: is what publishes or sends them there?");
   double last_s = seen_.front().arrived_s;
   double longest_s = 0.0;
   for (const Seen& seen : seen_) {

@@ -131,9 +131,9 @@ MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, co
     status.mission = mission.config.mission;
     status.state = RunState::ended;
     status.outcome = name_of(MissionOutcome::cancelled);
-    status.reason = error.what();
+    status.reason = error.sentence();
     options.control->publish(status);
-    throw CancelledEarly(error.what());
+    throw CancelledEarly(error.sentence());
   }
 }
 

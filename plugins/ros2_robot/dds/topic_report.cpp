@@ -60,7 +60,7 @@ void add_types_and_qualities(const std::vector<Endpoint>& endpoints, const char*
 
 }  // namespace
 
-TopicReport::TopicReport(const Participant& participant, const ros::HeardTopics& heard, double now_s)
+TopicReport::TopicReport(const Participant& participant, const ros::HeardTopics* heard, double now_s)
     : heard_(heard), now_s_(now_s), publishers_(participant.publishers()), subscribers_(participant.subscribers()) {}
 
 ConnectionPart TopicReport::of_reader(const Entity& reader, Importance importance) const {
@@ -79,14 +79,18 @@ ConnectionPart TopicReport::of_reader(const Entity& reader, Importance importanc
         "nobody publishes it" + did_you_mean(own.topic, std::vector<std::string>(names.begin(), names.end()));
     return part;
   }
-  std::ranges::move(heard_.values_of(own.topic, now_s_), std::back_inserter(part.values));
+  if (heard_ != nullptr)
+    std::ranges::move(heard_->values_of(own.topic, now_s_), std::back_inserter(part.values));
+  else
+    part.values.push_back({"heard", "not read before the odometry is there"});
   for (const Endpoint& offer : offers) {
     if (offer.type != own.type)
       part.problem = fmt::format("{} is published, and {} is read: see the topic's `type`", offer.type, own.type);
     else if (const std::string misfit = misfit_of(offer.profile, own.profile); !misfit.empty())
       part.problem = fmt::format("it does not fit, and nothing comes; {}", misfit);
   }
-  if (part.problem.empty() && importance == Importance::steady && heard_.find(own.topic) == nullptr)
+  if (part.problem.empty() && importance == Importance::steady && heard_ != nullptr &&
+      heard_->find(own.topic) == nullptr)
     part.problem = "it is published, and nothing comes: does its driver run, and does a firewall let UDP through?";
   return part;
 }

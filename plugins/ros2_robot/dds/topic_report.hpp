@@ -15,8 +15,8 @@ enum class Importance { steady, said_rarely, optional };
 
 class TopicReport {
  public:
-  // All as they are now; the participant must outlive it.
-  TopicReport(const Participant& participant, const ros::HeardTopics& heard, double now_s);
+  // All as they are now; participant and heard must outlive it. heard null: nothing was read yet.
+  TopicReport(const Participant& participant, const ros::HeardTopics* heard, double now_s);
 
   // Who publishes what the reader reads, and what has come.
   [[nodiscard]] ConnectionPart of_reader(const Entity& reader, Importance importance) const;
@@ -28,7 +28,7 @@ class TopicReport {
   [[nodiscard]] ConnectionPart of_network(const std::string& name, const std::string& velocities) const;
 
  private:
-  const ros::HeardTopics& heard_;
+  const ros::HeardTopics* heard_;
   double now_s_;
   std::vector<Endpoint> publishers_;
   std::vector<Endpoint> subscribers_;

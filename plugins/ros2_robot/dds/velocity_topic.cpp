@@ -30,6 +30,7 @@ void VelocityTopic::look_who_listens(double now_s) {
   looked_s_ = now_s;
   sends_twist_ = is_read(twist_);
   sends_stamped_ = is_read(twist_stamped_);
+  if (sends_twist_ || sends_stamped_) heard_s_ = now_s;
 }
 
 void VelocityTopic::send(const Twist& twist, double base_ahead_s) noexcept {

@@ -107,6 +107,12 @@ TEST(RosNetwork, AVariableThatCannotBeIsNamed) {
               AllOf(HasSubstr("ROS_STATIC_PEERS is"), HasSubstr("addresses are separated by `;`")));
 }
 
+TEST(RosNetwork, PeersThatNoNameServiceKnowsAreNamed) {
+  NetworkChoice network;
+  network.peers = {"127.0.0.1", "no-such-computer.invalid", "localhost"};
+  EXPECT_THAT(unknown_peers(network), ElementsAre("no-such-computer.invalid"));
+}
+
 TEST(RosNetwork, SettingsAreReadFromTheMission) {
   const auto config = load_config<Config>(
       parse_config_text("{domain: 3, network: localhost, interface: eth7, peers: [10.0.0.1, robot.local]}", "test"),

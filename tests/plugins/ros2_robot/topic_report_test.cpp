@@ -139,6 +139,36 @@ TEST_F(TopicReports, NameATopicThatIsSilent) {
               HasSubstr("it is published, and nothing comes"));
 }
 
+TEST_F(TopicReports, DoNotCallATopicSilentThatWasNotReadYet) {
+  Config config = reported_config();
+  config.odometry = "/odo";
+  const auto link = link_to(config, robot_with_one_sonar());
+  const ConnectionPart part =
+      part_of(*link, "/sonar", [](const ConnectionPart& sonar) { return !value_of(sonar, "heard").empty(); });
+  EXPECT_EQ(part.problem, "");
+  EXPECT_EQ(value_of(part, "heard"), "not read before the odometry is there");
+}
+
+TEST_F(TopicReports, ARobotToWhoseVelocitiesNobodyListensIsStopped) {
+  const auto link = link_to(reported_config(), robot_with_one_sonar());
+  std::string why;
+  ASSERT_TRUE(link->connect({}, why)) << why;
+  const auto stopped_by_within = [&](double within_s, bool wanted) {
+    std::string stopped_by;
+    for (const double begin_s = live::now_s(); live::now_s() - begin_s < within_s;) {
+      std::vector<Observation> seen;
+      (void)link->receive(seen);
+      if (!seen.empty()) stopped_by = seen.back().stopped_by;
+      if (!seen.empty() && stopped_by.empty() != wanted) break;
+    }
+    return stopped_by;
+  };
+  EXPECT_EQ(stopped_by_within(0.5, true), "") << "it may still be met";
+  EXPECT_EQ(stopped_by_within(8.0, true), "a base that nobody has met: no one listens to /cmd_vel");
+  const Entity base = robot_.participant().reader("/cmd_vel", geometry_msgs_msg_dds__Twist__desc);
+  EXPECT_EQ(stopped_by_within(8.0, false), "");
+}
+
 TEST_F(TopicReports, NameReadingsWhoseClockIsNotTheOdometrys) {
   robot_.sonar_ahead_s = -7.0;
   EXPECT_THAT(problem_of(reported_config(), "/sonar", "behind those of /odom").problem,
