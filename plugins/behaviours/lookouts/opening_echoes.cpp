@@ -62,6 +62,17 @@ void OpeningEchoes::pass(double from_m, double to_m, std::vector<int>& passes) c
     ++passes[i];
 }
 
+// A single echo may have come from another transducer, and shifts the middle of what was heard.
+double OpeningEchoes::surer_middle_m(std::size_t first, std::size_t last) const {
+  const auto is_sure = [&](std::size_t i) { return passes_[i] + silent_[i] > settings_.min_passes; };
+  std::size_t left = first;
+  std::size_t right = last;
+  while (left < right && !is_sure(left)) ++left;
+  while (right > left && !is_sure(right)) --right;
+  if (left == right) return 0.5 * (middle_of(first) + middle_of(last));
+  return 0.5 * (middle_of(left) + middle_of(right));
+}
+
 HeardOpening OpeningEchoes::heard() const {
   HeardOpening opening;
   opening.middle_m = T_map_opening_.position();
@@ -78,8 +89,8 @@ HeardOpening OpeningEchoes::heard() const {
       if (is_open(k)) last = k;
     const double from_m = middle_of(i) - 0.5 * settings_.bin_m;
     const double to_m = middle_of(last) + 0.5 * settings_.bin_m;
+    const double middle_m = surer_middle_m(i, last);
     i = last;
-    const double middle_m = 0.5 * (from_m + to_m);
     if (std::abs(middle_m) > settings_.off_middle_m || to_m - from_m <= opening.width_m) continue;
     opening.width_m = to_m - from_m;
     opening.middle_m = T_map_opening_ * Point{0.0, middle_m};

@@ -50,6 +50,8 @@ class OpeningEchoes {
  private:
   // Adds to the parts that lie between.
   void pass(double from_m, double to_m, std::vector<int>& passes) const;
+  // Of the bins from first to last: between the outermost that more than the fewest echoes have passed.
+  [[nodiscard]] double surer_middle_m(std::size_t first, std::size_t last) const;
   [[nodiscard]] bool has_echoed(int sensor) const { return std::ranges::find(echoed_, sensor) != echoed_.end(); }
   [[nodiscard]] double middle_of(std::size_t bin) const {
     return (static_cast<double>(bin) + 0.5) * settings_.bin_m - settings_.aside_m;

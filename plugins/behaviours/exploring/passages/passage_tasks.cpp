@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <utility>
 
 #include "plugins/common/motion/path.hpp"
 
@@ -149,6 +148,7 @@ void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::s
   tried.was_passed = tried.was_passed || has_passed;
   // One that was passed and is still not known to be open is not driven through for ever.
   tried.is_given_up = !has_passed || tried.tries >= settings_.max_tries;
+  if (!has_passed && has_retried_ && tried.tries < settings_.max_tries) look_again(tried);
 }
 
 std::optional<ExploreTask> PassageTasks::passed_on(const std::vector<Point>& path, double radius_m) const {
@@ -171,6 +171,13 @@ std::optional<ExploreTask> PassageTasks::passed_on(const std::vector<Point>& pat
   return std::nullopt;
 }
 
+// A look that led to a drive which was blocked may have heard the middle elsewhere than it is.
+void PassageTasks::look_again(Tried& tried) {
+  tried.is_given_up = false;
+  tried.heard_before = tried.tries > 0 ? std::nullopt : tried.heard;
+  tried.heard.reset();
+}
+
 bool PassageTasks::retry() {
   if (has_retried_) return false;
   has_retried_ = true;
@@ -180,8 +187,7 @@ bool PassageTasks::retry() {
     tried.failures = 0;
     if (!tried.is_given_up || tried.was_passed || !tried.heard || tried.tries >= settings_.max_tries) continue;
     if (tried.is_suspect && tried.heard->width_m <= 0.0) continue;  // a wall
-    tried.is_given_up = false;
-    tried.heard_before = std::exchange(tried.heard, std::nullopt);
+    look_again(tried);
     is_any = true;
   }
   forget_unreachable();

@@ -80,6 +80,7 @@ class PassageTasks {
   // The nearest that was given up, a little farther off: what closes a gap closes the ones beside it.
   [[nodiscard]] const Tried* given_up_beside(const Point& at_m) const;
   void forget_unreachable();
+  static void look_again(Tried& tried);
   [[nodiscard]] Tried& at(const Point& at_m);
   [[nodiscard]] std::vector<Point> looked_at() const {
     return places_where([](const Tried& t) { return t.is_given_up || t.heard; });

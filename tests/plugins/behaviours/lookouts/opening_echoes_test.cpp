@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace cairn::behaviours {
 namespace {
@@ -48,7 +50,8 @@ Observation echoes_at(const Doorway& door, const Pose2& T_map_robot) {
 }
 
 // A look from 0.7 m before it, sweeping by 20 degrees.
-HeardOpening heard_in(const Doorway& door, const Point& at_m = {0.0, 0.0}) {
+HeardOpening heard_in(const Doorway& door, const Point& at_m = {0.0, 0.0},
+                      std::span<const RangeReading> false_echoes = {}) {
   OpeningEchoes echoes;
   const Point from_m = at_m - Point{0.7, 0.0};
   echoes.begin(at_m, from_m);
@@ -56,6 +59,9 @@ HeardOpening heard_in(const Doorway& door, const Point& at_m = {0.0, 0.0}) {
     const Pose2 T_map_robot{from_m.x(), from_m.y(), radians(off_deg)};
     echoes.see(echoes_at(door, T_map_robot), T_map_robot);
   }
+  Observation seen;
+  seen.ranges.assign(false_echoes.begin(), false_echoes.end());
+  echoes.see(seen, {from_m.x(), from_m.y(), 0.0});
   return echoes.heard();
 }
 
@@ -72,6 +78,15 @@ TEST(OpeningEchoes, FindTheMiddleOfADoorThatTheMapHasBesideIt) {
   const HeardOpening heard = heard_in({-0.3, 0.5}, {0.0, -0.05});
   EXPECT_NEAR(heard.middle_m.y(), 0.1, 0.08);
   EXPECT_NEAR(heard.middle_m.x(), 0.0, 1e-9);
+}
+
+TEST(OpeningEchoes, AFalseEchoBesideADoorDoesNotMoveItsMiddle) {
+  RangeReading crosstalk = echoes_at({5.0, 6.0}, {-0.7, 0.0, 0.0}).ranges.front();
+  crosstalk.T_robot_sensor = {0.17, 0.0, radians(-40.0)};
+  crosstalk.range_m = 3.0;
+  const HeardOpening heard = heard_in({-0.38, 0.38}, {0.0, 0.0}, std::array{crosstalk});
+  EXPECT_GT(heard.width_m, 0.8) << "it may be that wide";
+  EXPECT_NEAR(heard.middle_m.y(), 0.0, 0.05);
 }
 
 TEST(OpeningEchoes, HearNothingThroughAWall) {

@@ -79,6 +79,25 @@ TEST(PassageTasks, OneThatWasNotGotThroughIsTriedOnceMoreAndLookedAtAgain) {
   EXPECT_FALSE(passing.tasks.retry()) << "once only";
 }
 
+TEST(PassageTasks, OneThatWasNotGotThroughIsJudgedByTheNewLookAlone) {
+  Passing passing(5);
+  passing.tasks.record(*passing.look(0.7), false, "the robot is blocked");
+  ASSERT_TRUE(passing.tasks.retry());
+  const std::optional<ExploreTask> drive = passing.look(0.6);
+  ASSERT_TRUE(drive);
+  EXPECT_DOUBLE_EQ(drive->width_m, 0.6) << "the wider one had its middle elsewhere";
+}
+
+TEST(PassageTasks, OneThatIsFoundAmongTheLastIsTriedTwiceTooAndLookedAtAgainBefore) {
+  Passing passing(5);
+  (void)passing.tasks.retry();
+  passing.tasks.record(*passing.look(0.7), false, "the robot is blocked");
+  ASSERT_TRUE(passing.next());
+  EXPECT_EQ(passing.next()->kind, TaskKind::opening);
+  passing.tasks.record(*passing.look(0.7), false, "the robot is blocked");
+  EXPECT_FALSE(passing.next());
+}
+
 TEST(PassageTasks, OneThatWasNotGotThroughIsReportedWithItsPlaceWidthAndReason) {
   Passing passing(5);
   passing.tasks.record(*passing.look(0.7), false, "the robot is blocked");
