@@ -143,6 +143,7 @@ Status Exploration::pass(const WorldView& world, BehaviourContext& context) {
   const Status status = drive_.tick(*task_, world, context);
   if (status.state == StepState::running) return {StepState::running, sentence_of(*task_) + ": " + status.reason};
   const bool has_passed = status.state == StepState::success;
+  if (task_->kind == TaskKind::way_back && !has_passed) return cannot_get_away();
   context.report(sentence_of(*task_) + (has_passed ? ": passed" : ": " + status.reason));
   chooser_.record_passage(*task_, has_passed, status.reason);
   task_.reset();
@@ -206,7 +207,7 @@ Status Exploration::get_unstuck(const WorldView& world, BehaviourContext& contex
   const Pose2& pose = world.pose.T_map_robot;
   const ExploreBlockedSettings& blocked = config_.exploring.blocked;
   blockages_.add(travelled_.driven_m);
-  if (blockages_.is_too_many()) return cannot_get_away();
+  if (blockages_.is_too_many()) return turn_back(world);
   chooser_.avoid(pose * Point{world.robot.radius_m, 0.0}, world.time_s + blocked.avoid_for_s);
   if (task_) {
     if (blockages_.add_failed(task_->lookout)) chooser_.give_up(*task_, world);
@@ -215,6 +216,18 @@ Status Exploration::get_unstuck(const WorldView& world, BehaviourContext& contex
   set_mode(Mode::back_off, world.time_s);
   back_up_.begin(world);
   return back_off(world, context);
+}
+
+// What it has driven through was free, whatever the map has made of it since.
+Status Exploration::turn_back(const WorldView& world) {
+  const double since_m = travelled_.driven_m - turned_back_at_m_;
+  std::optional<ExploreTask> task = chooser_.way_back(world);
+  if (!task || since_m < 3.0 * config_.exploring.blocked.way_back_m) return cannot_get_away();
+  turned_back_at_m_ = travelled_.driven_m;
+  blockages_.restart();
+  task_ = std::move(task);
+  begin_passage(world);
+  return {StepState::running, sentence_of(*task_)};
 }
 
 Status Exploration::back_off(const WorldView& world, BehaviourContext& context) {

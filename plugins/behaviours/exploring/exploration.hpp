@@ -45,6 +45,7 @@ class Exploration {
   void begin_passage(const WorldView& world);
   void end_facing(const WorldView& world, BehaviourContext& context);
   Status get_unstuck(const WorldView& world, BehaviourContext& context);
+  Status turn_back(const WorldView& world);
   [[nodiscard]] Status finished(const WorldView& world);
   [[nodiscard]] Status explored(const WorldView& world);
   [[nodiscard]] Status cannot_get_away() const;
@@ -68,6 +69,7 @@ class Exploration {
   bool is_faced_ = false;            // once, since it arrived: it sweeps
   double looked_around_at_m_ = 0.0;  // of the distance driven
   double arrived_at_m_ = -1.0;       // the same
+  double turned_back_at_m_ = -1e9;   // the same
   Point announced_{1e9, 1e9};        // the object of the last event
 };
 

@@ -237,6 +237,8 @@ std::string sentence_of(const ExploreTask& task) {
         return "looking closer at the edge";
       case TaskKind::passage:
         return "going through the opening";
+      case TaskKind::way_back:
+        return "going back the way it came";
       case TaskKind::opening:
         break;
     }

@@ -40,7 +40,8 @@ struct ExploreMemory {
   std::vector<TroubleSpot> troubles;
 };
 
-enum class TaskKind { orbit, frontier, edge, opening, passage };
+// way_back: along the way that the robot has come, as through a passage.
+enum class TaskKind { orbit, frontier, edge, opening, passage, way_back };
 
 struct ExploreTask {
   TaskKind kind = TaskKind::frontier;

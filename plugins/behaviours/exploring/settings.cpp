@@ -93,6 +93,8 @@ void ExploreBlockedSettings::describe(Fields<ExploreBlockedSettings>& fields) {
                 "a task whose place is this near to one it was blocked on the way to is given up");
   fields.integer("max_in_a_row", &C::max_in_a_row, {1.0, 1000.0}, "after so many blockages in a row it gives up");
   fields.number("progress_m", &C::progress_m, {0.0, 100.0}, "m", "blockages with this drive between are not in a row");
+  fields.number("way_back_m", &C::way_back_m, {0.1, 100.0}, "m",
+                "after too many it drives back the way it came, for so much, before it fails");
 }
 
 void PassageDriveSettings::describe(Fields<PassageDriveSettings>& fields) {

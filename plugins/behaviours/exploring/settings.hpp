@@ -81,6 +81,7 @@ struct ExploreBlockedSettings {
   double failed_again_m = 0.4;
   int max_in_a_row = 8;
   double progress_m = 0.5;
+  double way_back_m = 1.0;
   static void describe(Fields<ExploreBlockedSettings>& fields);
 };
 

@@ -310,4 +310,21 @@ std::optional<Point> TaskChooser::room_out_of_reach(const WorldView& world, cons
   return behaviours::room_out_of_reach(space, world.pose.T_map_robot.position(), done, settings_.openings);
 }
 
+std::optional<ExploreTask> TaskChooser::way_back(const WorldView& world) const {
+  const Point robot = world.pose.T_map_robot.position();
+  const auto away_m = [&](const Pose2& pose) { return (pose.position() - robot).norm(); };
+  const double back_m = config_.exploring.blocked.way_back_m;
+  const auto end = std::find_if(memory_.trace.rbegin(), memory_.trace.rend(),
+                                [&](const Pose2& pose) { return away_m(pose) >= back_m; });
+  if (end == memory_.trace.rend()) return std::nullopt;
+  const auto middle =
+      std::find_if(memory_.trace.rbegin(), end, [&](const Pose2& pose) { return away_m(pose) >= 0.5 * back_m; });
+  ExploreTask task;
+  task.kind = TaskKind::way_back;
+  task.about = (middle == end ? *end : *middle).position();
+  task.lookout = robot;
+  task.beyond_m = end->position();
+  return task;
+}
+
 }  // namespace cairn::behaviours

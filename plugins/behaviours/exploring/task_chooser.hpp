@@ -42,7 +42,7 @@ class TaskChooser {
   void begin_passage() { is_in_passage_ = true; }
   void record_passage(const ExploreTask& task, bool has_passed, const std::string& why) {
     is_in_passage_ = false;
-    passages_.record(task, has_passed, why);
+    if (task.kind == TaskKind::passage) passages_.record(task, has_passed, why);
   }
   // Passages that were given up are tried once more, from where the robot is now. False when there are none.
   [[nodiscard]] bool retry_passages() { return passages_.retry(); }
@@ -67,6 +67,8 @@ class TaskChooser {
   [[nodiscard]] bool is_shut_in(const WorldView& world) const;
   // Where the robot can go, as for the last choice.
   [[nodiscard]] FreeSpace space(const WorldView& world) const { return space_within(search_, world); }
+  // Back along the trace, for some metre. None: the robot has not come so far.
+  [[nodiscard]] std::optional<ExploreTask> way_back(const WorldView& world) const;
   // As openings.hpp.
   [[nodiscard]] std::optional<Point> room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const;
 

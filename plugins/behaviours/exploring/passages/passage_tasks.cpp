@@ -165,7 +165,10 @@ std::optional<ExploreTask> PassageTasks::passed_on(const std::vector<Point>& pat
       const Point ahead = motion::point_along(path, std::min(length_m, s + radius_m)) - p;
       if (ahead.dot(through.middle_m - through.from_m) < 0.0)  // back
         through.from_m = 2.0 * through.middle_m - through.from_m;
-      return drive_through(through, radius_m);
+      // A robot that has just come through stands that near behind it, and goes on.
+      const Point before = motion::point_along(path, std::max(0.0, s - radius_m));
+      const bool is_behind = (before - through.middle_m).dot(through.middle_m - through.from_m) > 0.0;
+      if (!is_behind) return drive_through(through, radius_m);
     }
   }
   return std::nullopt;

@@ -170,6 +170,16 @@ TEST(PassageTasks, TheWayBackLeadsThroughAPassageThatWasPassedTheOtherWayRound) 
   EXPECT_FALSE(passing.tasks.passed_on({{0.0, 0.0}, {0.5, 0.0}}, kRadius_m)) << "not on this path";
 }
 
+TEST(PassageTasks, WhoHasJustComeThroughDoesNotGoThroughAgainOnTheWayOn) {
+  Passing passing(5);
+  const ExploreTask there = *passing.look(0.9);
+  passing.tasks.record(there, true, {});
+  const Point ahead = (there.beyond_m - there.about).normalized();
+  const Point behind = there.about + 0.4 * ahead;
+  EXPECT_FALSE(passing.tasks.passed_on({behind, behind + 2.0 * ahead}, kRadius_m));
+  EXPECT_TRUE(passing.tasks.passed_on({behind, there.lookout}, kRadius_m)) << "back";
+}
+
 TEST(PassageTasks, OneThatWasPassedAndIsBlockedNowIsNotDrivenIntoForEver) {
   Passing passing(5);
   const ExploreTask there = *passing.look(0.7);
