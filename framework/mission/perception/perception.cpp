@@ -65,12 +65,15 @@ const CoarseGrid* Perception::show_earlier_map() {
 void Perception::see_markers(Observation& observation) {
   for (const MarkerSighting& sighting : observation.markers)
     if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.sensor.fault(fault);
-  if (!modules_.marker_detector || observation.images.empty()) return;
-  const std::vector<MarkerSighting> seen = modules_.marker_detector.call(
-      [&](MarkerDetector& detector) { return detector.detect(observation.images, budget_); });
-  for (const MarkerSighting& sighting : seen)
-    if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.marker_detector.fault(fault);
-  observation.markers.insert(observation.markers.end(), seen.begin(), seen.end());
+  sighting_motion_.add(observation.stamp_s, observation.T_odom_robot);
+  if (modules_.marker_detector && !observation.images.empty()) {
+    const std::vector<MarkerSighting> seen = modules_.marker_detector.call(
+        [&](MarkerDetector& detector) { return detector.detect(observation.images, budget_); });
+    for (const MarkerSighting& sighting : seen)
+      if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.marker_detector.fault(fault);
+    observation.markers.insert(observation.markers.end(), seen.begin(), seen.end());
+  }
+  for (MarkerSighting& sighting : observation.markers) sighting_motion_.bring_to_now(sighting);
 }
 
 PoseEstimate Perception::localize(const Observation& observation) {

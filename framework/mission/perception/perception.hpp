@@ -11,6 +11,7 @@
 #include "framework/mission/held_out.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/perception/past.hpp"
+#include "framework/mission/perception/sighting_motion.hpp"
 
 namespace cairn {
 
@@ -40,7 +41,7 @@ class Perception {
   const CoarseGrid* show_earlier_map();
 
   // The stages of a tick, in their order.
-  // Adds the markers that are in the observation's pictures.
+  // Adds the markers that are in the observation's pictures, and brings all to where the robot is now.
   void see_markers(Observation& observation);
   [[nodiscard]] PoseEstimate localize(const Observation& observation);
   // Which cells may have changed; valid until the next call. Of deaf transducers "no echo" is no news for the map.
@@ -92,6 +93,7 @@ class Perception {
   std::uint64_t revision_ = 0;
   std::size_t drawn_ = 0;  // size of the past when the map was last drawn anew
   bool is_redrawn_ = false;
+  SightingMotion sighting_motion_;
 };
 
 }  // namespace cairn
