@@ -293,6 +293,13 @@ void TreeRunner::halt_node(std::size_t at, const std::string& reason) {
   if (state.is_reported) host_.ended(*state.node, state.report);
 }
 
+void TreeRunner::begin_leaves_afresh() {
+  driver_.reset();
+  wanted_.reset();
+  for (const State& state : states_)
+    if (state.is_running && state.node->kind == NodeKind::behaviour) host_.halt_leaf(*state.node);
+}
+
 void TreeRunner::abandon(double time_s, const std::string& reason) {
   for (State& state : states_) {
     if (!state.is_running) continue;

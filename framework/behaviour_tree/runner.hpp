@@ -81,6 +81,9 @@ class TreeRunner {
   // As halt(), but no leaf is called any more.
   void abandon(double time_s, const std::string& reason);
 
+  // The leaves under way begin afresh with their next tick; the nodes above them stay where they are.
+  void begin_leaves_afresh();
+
   [[nodiscard]] bool is_running() const { return states_.front().is_running; }
   // Of the nodes that were ticked, in the order of the file.
   [[nodiscard]] std::vector<NodeReport> reports() const;

@@ -13,7 +13,7 @@ void MarkersConfig::describe(Fields<MarkersConfig>& fields) {
   fields.plugin("detector", &MarkersConfig::detector, "marker_detector", "finds markers in the robot's pictures");
   fields.raw("categories", &MarkersConfig::categories, "map",
              "categories of the landmarks that markers are, by their numbers: `{door: [3, 4], dock: [7]}`");
-  fields.integer("confirm_sightings", &MarkersConfig::confirm_sightings, {1.0, 1000.0},
+  fields.integer("confirm_sightings", &MarkersConfig::confirm_sightings, {1.0, 50.0},
                  "sightings from places some way apart until a marker counts as a landmark");
 }
 

@@ -9,10 +9,11 @@ namespace {
 
 constexpr double kApart_m = 0.15;  // of the robot, between sightings that count
 constexpr double kApart_rad = radians(12.0);
-constexpr double kFar = 30.0;          // squared Mahalanobis distance of a sighting that is none of this place
-constexpr int kMoved = 4;              // of these in a row: the marker hangs elsewhere now
-constexpr double kDecides = 9.0;       // difference of misfits
-constexpr std::size_t kMaxKept = 200;  // sightings of a marker
+constexpr double kFar = 30.0;     // squared Mahalanobis distance of a sighting that is none of this place
+constexpr int kMoved = 4;         // of these in a row: the marker hangs elsewhere now
+constexpr double kDecides = 9.0;  // difference of misfits
+// Of a marker; undecided ones count after four times `confirm_sightings`.
+constexpr std::size_t kMaxKept = 200;
 
 struct InMap {
   Eigen::Vector3d state;
@@ -44,12 +45,12 @@ std::vector<MarkerPose> poses_of(const MarkerSighting& sighting) {
   return poses;
 }
 
+}  // namespace
+
 bool are_apart(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm() >= kApart_m ||
          std::abs(wrap_angle(a.theta_rad - b.theta_rad)) >= kApart_rad;
 }
-
-}  // namespace
 
 std::vector<MarkerId> MarkerTracker::update(std::span<const MarkerSighting> sightings, const PoseEstimate& pose,
                                             std::size_t pose_number) {
@@ -70,7 +71,7 @@ void MarkerTracker::begin(Track& track, const Kept& kept) {
   track.hypotheses.clear();
   track.kept = {kept};
   track.strangers = 0;
-  track.least_pose_covariance = kept.pose_covariance;
+  track.min_pose_covariance = kept.pose_covariance;
   for (const MarkerPose& pose : poses_of(kept.sighting)) {
     const InMap seen = in_map(pose, kept.T_map_robot, kept.pose_covariance);
     track.hypotheses.push_back({seen.state, seen.covariance, 0.0});
@@ -114,8 +115,8 @@ bool MarkerTracker::add(Track& track, const Kept& kept) {
   std::ranges::stable_sort(track.hypotheses, {}, &Hypothesis::misfit);
   if (track.hypotheses.size() == 2 && track.hypotheses[1].misfit - track.hypotheses[0].misfit > kDecides)
     track.hypotheses.pop_back();
-  if (kept.pose_covariance.trace() < track.least_pose_covariance.trace())
-    track.least_pose_covariance = kept.pose_covariance;
+  if (kept.pose_covariance.trace() < track.min_pose_covariance.trace())
+    track.min_pose_covariance = kept.pose_covariance;
   if (track.kept.size() == kMaxKept) track.kept.pop_back();
   track.kept.push_back(kept);
   return true;
@@ -139,7 +140,7 @@ std::optional<MarkerTracker::Estimate> MarkerTracker::estimate(const MarkerId& m
   const Hypothesis& best = track.hypotheses.front();
   // What the robot did not know of its own place all sightings share.
   return Estimate{{best.state[0], best.state[1], best.state[2]},
-                  best.covariance + track.least_pose_covariance,
+                  best.covariance + track.min_pose_covariance,
                   static_cast<int>(track.kept.size()),
                   track.hypotheses.size() == 1};
 }

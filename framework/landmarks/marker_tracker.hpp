@@ -16,6 +16,9 @@
 
 namespace cairn {
 
+// Whether two places of the robot are so far apart that sightings of a marker from them are two.
+[[nodiscard]] bool are_apart(const Pose2& a, const Pose2& b);
+
 class MarkerTracker {
  public:
   // Where a marker is, in the map.
@@ -51,8 +54,8 @@ class MarkerTracker {
   struct Track {
     std::vector<Hypothesis> hypotheses;  // one or two, the likelier first
     std::vector<Kept> kept;
-    Eigen::Matrix3d least_pose_covariance = Eigen::Matrix3d::Zero();  // of the robot, when it saw it
-    int strangers = 0;                                                // sightings in a row that are far off
+    Eigen::Matrix3d min_pose_covariance = Eigen::Matrix3d::Zero();  // of the robot, when it saw it
+    int strangers = 0;                                              // sightings in a row that are far off
   };
 
   struct Match {

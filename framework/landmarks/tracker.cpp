@@ -63,6 +63,9 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
   graph_ = std::move(graph);
   candidates_ = std::move(candidates);
   driven_ = DrivenPath(std::move(driven_path), driven_.max_poses());
+  markers_ = {};
+  poses_ = 0;
+  name_marker_categories();
 }
 
 void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
@@ -78,6 +81,16 @@ void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
 void LandmarkTracker::expect_markers(std::map<int, std::string> categories, int confirm_sightings) {
   marker_categories_ = std::move(categories);
   confirm_marker_sightings_ = confirm_sightings;
+  name_marker_categories();
+}
+
+// Of a map that was saved, too: what a marker is for is the mission's to say.
+void LandmarkTracker::name_marker_categories() {
+  for (const auto& [id, landmark] : graph_.landmarks()) {
+    if (!landmark.marker) continue;
+    const auto category = marker_categories_.find(landmark.marker->number);
+    if (category != marker_categories_.end()) graph_.find(id)->category = category->second;
+  }
 }
 
 std::vector<LandmarkTracker::Change> LandmarkTracker::update(std::span<const MarkerSighting> sightings) {
@@ -91,7 +104,7 @@ void LandmarkTracker::place_marker(const MarkerId& marker, std::vector<Change>& 
   const std::optional<MarkerTracker::Estimate> estimate = markers_.estimate(marker);
   if (!estimate) return;
   const Landmark* const known = graph_.find_marker(marker);
-  // A marker of an earlier run stays until as much has been seen of it again.
+  // A marker of an earlier run stays where it was until this one has confirmed it.
   const bool is_confirmed =
       estimate->sightings >= confirm_marker_sightings_ &&
       (estimate->is_decided || estimate->sightings >= kUndecidedMarker * confirm_marker_sightings_);

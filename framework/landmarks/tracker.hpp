@@ -73,6 +73,7 @@ class LandmarkTracker {
   [[nodiscard]] std::optional<LandmarkId> known_as(const Landmark& candidate) const;
   [[nodiscard]] bool are_one(const Landmark& a, const Landmark& b) const;
   void merge_beside(LandmarkId id, std::vector<Change>& changes);
+  void name_marker_categories();
   void place_marker(const MarkerId& marker, std::vector<Change>& changes);
 
   LandmarksConfig config_;

@@ -121,10 +121,10 @@ Pose2 start_of(const MissionConfig& config) {
 }
 
 // Where the sensor says that the robot begins, which it may wait for.
-std::optional<Pose2> first_pose(const MissionConfig& config, const Sensor& sensor, const Making& making) {
-  const auto is_cancelled = [&] { return making.cancel != nullptr && making.cancel->load(); };
+std::optional<Pose2> start_from_sensor(const MissionConfig& config, const Sensor& sensor, const BuildOptions& options) {
+  const auto is_cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   const bool was_cancelled = is_cancelled();
-  const StartWait wait(sensor, making.on_wait);
+  const StartWait wait(sensor, options.on_wait);
   const auto start = fenced("sensor", config.sensor.name, [&] { return sensor.start(); });
   if (is_cancelled() && !was_cancelled)
     throw ConfigError(config.sensor.config.place, config.sensor.name + " was asked where the robot begins");
@@ -140,6 +140,16 @@ std::shared_ptr<Mapper> mapper_that_goes_on(const Mission& mission, const Module
     throw StoreError("cannot go on with this mission: its map module " + map.name +
                      " does not begin with a grid that is given to it");
   return mapper;
+}
+
+// Null where its module is not installed.
+std::shared_ptr<Behaviour> build_find_myself(const Mission& mission, const ModuleLibrary& library, std::size_t index) {
+  if (library.find_any(kFindMyself) == nullptr) return nullptr;
+  TreeNode node;
+  node.name = node.choice.name = kFindMyself;
+  node.choice.config.kind = ConfigValue::Kind::map;
+  node.choice.config.place = node.place = mission.config.steps.place;
+  return build_behaviour(mission, library, node, index);
 }
 
 }  // namespace
@@ -195,7 +205,7 @@ std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLib
 }
 
 MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume,
-                             const Making& making, const std::optional<LocalizerStart>& start_known) {
+                             const BuildOptions& options, const std::optional<LocalizerStart>& start_known) {
   const MissionConfig& config = mission.config;
   MissionModules built;
   built.T_map_start = start_of(config);
@@ -205,10 +215,10 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     // A simulated robot stands where it really was; what knows of it begins where it was thought to be.
     built.T_map_start = resume->progress->true_T_map_robot.value_or(resume->progress->T_map_robot);
   }
-  built.sensor = build_sensor(mission, library, built, making.cancel);
+  built.sensor = build_sensor(mission, library, built, options.cancel);
   check_has_steps(config, mission.steps, *built.sensor);
   if (resume == nullptr && !start_known) {
-    if (const auto start = first_pose(config, *built.sensor, making)) built.T_map_start = *start;
+    if (const auto start = start_from_sensor(config, *built.sensor, options)) built.T_map_start = *start;
   }
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
   if (start_known) built.T_map_start = start_known->T_map_start;
@@ -224,6 +234,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     throw missing.front();
   for (const TreeNode* node : behaviours_of(mission.steps))
     built.behaviours.push_back(build_behaviour(mission, library, *node, built.behaviours.size()));
+  if (resume != nullptr) built.find_myself = build_find_myself(mission, library, built.behaviours.size());
   return built;
 }
 

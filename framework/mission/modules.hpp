@@ -32,12 +32,16 @@ struct MissionModules {
   std::shared_ptr<Planner> planner;                    // may be null
   std::shared_ptr<Controller> controller;              // null when the default one is not installed
   std::vector<std::shared_ptr<Behaviour>> behaviours;  // in the order of behaviours_of()
+  std::shared_ptr<Behaviour> find_myself;              // for a run that goes on from a map; may be null
   Pose2 T_map_start;
   double begin_s = 0.0;  // the mission's clock
 };
 
+// The behaviour that drives a robot that does not know where it is.
+inline constexpr const char* kFindMyself = "find_myself";
+
 // Of making modules, which may wait.
-struct Making {
+struct BuildOptions {
   const std::atomic<bool>* cancel = nullptr;                   // ends what is under way: a log that is read, a wait
   std::function<void(const std::string& sentence)> on_wait{};  // what is waited for, by another thread
 };
@@ -46,7 +50,7 @@ struct Making {
 // mapper begins with nothing, and where the sensor begins is not where the robot is said to be. Throws ConfigError or
 // ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
-                                           const SavedMap* resume = nullptr, const Making& making = {},
+                                           const SavedMap* resume = nullptr, const BuildOptions& options = {},
                                            const std::optional<LocalizerStart>& start = std::nullopt);
 
 // The mission's localizer alone.

@@ -79,6 +79,7 @@ struct MissionResult {
   std::vector<ClusterLevel> cluster_levels{};
   std::vector<StampedPose> poses{};  // of all observations, as known at the end; none for most missions that drive
   std::optional<LocalisationFigures> localisation{};  // of a run that leaves its map alone
+  std::optional<StartCheck> start_check{};            // of a run that goes on with a map, and drives
   std::string map_file;                               // name in the output folder; empty: could not be saved
 };
 

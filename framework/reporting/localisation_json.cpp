@@ -16,7 +16,24 @@ nlohmann::ordered_json place_json(const Pose2& pose) {
   return {{"x_m", to_micro(pose.x_m)}, {"y_m", to_micro(pose.y_m)}, {"angle_deg", to_micro(degrees(pose.theta_rad))}};
 }
 
+nlohmann::ordered_json guess_json(const PoseHypothesis& guess) {
+  nlohmann::ordered_json row = place_json(guess.T_map_robot);
+  row["score"] = to_micro(guess.score);
+  row["contradicted_ratio"] = to_micro(guess.contradicted_ratio);
+  row["held_by_corners"] = guess.is_held_by_corners;
+  return row;
+}
+
 }  // namespace
+
+std::string start_check_json(const StartCheck& check) {
+  nlohmann::ordered_json looks = nlohmann::ordered_json::array();
+  for (const StartLook& look : check.looks()) {
+    looks.push_back({{"driven_m", to_micro(look.driven_m)}, {"believed", guess_json(look.believed)}});
+    if (look.elsewhere) looks.back()["elsewhere"] = guess_json(*look.elsewhere);
+  }
+  return nlohmann::ordered_json{{"trust", std::string(name_of(check.trust()))}, {"looks", std::move(looks)}}.dump();
+}
 
 std::string localisation_json(const LocalisationFigures& figures) {
   const bool is_known = figures.is_pose_given || figures.found_s;
@@ -30,13 +47,7 @@ std::string localisation_json(const LocalisationFigures& figures) {
     json["found_at"] = place_json(figures.T_map_robot);
   }
   json["guesses"] = nlohmann::ordered_json::array();
-  for (const PoseHypothesis& guess : figures.guesses) {
-    nlohmann::ordered_json row = place_json(guess.T_map_robot);
-    row["score"] = to_micro(guess.score);
-    row["contradicted_ratio"] = to_micro(guess.contradicted_ratio);
-    row["held_by_corners"] = guess.is_held_by_corners;
-    json["guesses"].push_back(std::move(row));
-  }
+  for (const PoseHypothesis& guess : figures.guesses) json["guesses"].push_back(guess_json(guess));
   return json.dump();
 }
 

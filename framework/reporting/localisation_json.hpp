@@ -7,6 +7,8 @@
 
 namespace cairn {
 
+// The same of a run that goes on with a map: whether the robot was carried.
+[[nodiscard]] std::string start_check_json(const StartCheck& check);
 [[nodiscard]] std::string localisation_json(const LocalisationFigures& figures);
 
 }  // namespace cairn

@@ -268,6 +268,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   report["node_runs"] = json_of(result.node_runs.runs());
   report["node_runs_left_out"] = result.node_runs.left_out();
   add_timeline(report, timeline_);
+  if (result.start_check) report["start_check"] = ordered_json::parse(start_check_json(*result.start_check));
   if (result.localisation) report["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   report["map"] = result.map_file;
   report["pictures"] = pictures;
@@ -299,6 +300,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   if (const auto error = pose_errors_.figures()) summary["pose_error"] = json_of(*error);
   if (markers_.sightings() > 0) summary["markers"] = ordered_json::parse(markers_.json());
   summary["wall_s"] = rounded(wall_s);
+  if (result.start_check) summary["start_check"] = ordered_json::parse(start_check_json(*result.start_check));
   if (result.localisation) summary["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
   summary["autosave"] = json_of(result.autosave);

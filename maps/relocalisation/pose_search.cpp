@@ -31,6 +31,18 @@ double evenness(const Eigen::Matrix3d& information) {
   return half + apart > 0.0 ? (half - apart) / (half + apart) : 0.0;
 }
 
+// Each point of each layer counts alike.
+double score_of(std::span<const SearchLayer> layers, const Pose2& T_map_robot) {
+  double sum = 0.0;
+  double points = 0.0;
+  for (const SearchLayer& layer : layers) {
+    const auto count = static_cast<double>(layer.points_m.size());
+    sum += count * score_of(layer.pyramid->field(), layer.points_m, T_map_robot);
+    points += count;
+  }
+  return points > 0.0 ? sum / points : 0.0;
+}
+
 }  // namespace
 
 PoseSearch::PoseSearch(const OccupancyGrid& map, const PoseSearchSettings& settings)
@@ -65,6 +77,19 @@ std::vector<PoseHypothesis> PoseSearch::find(const Surroundings& surroundings,
   for (const ScanMatch& match : search_distinct(layers, &free_, window, settings_.distinct))
     found.push_back(aligned(match, surroundings));
   return found;
+}
+
+// The best score alone would draw the pose away from where it is: beside a map that is not finished, what has been seen
+// right is unknown to it, and scores more where it happens to lie on something.
+PoseHypothesis PoseSearch::at(const Surroundings& surroundings, const Pose2& T_map_robot) const {
+  if (surroundings.echoes_m.empty()) return {T_map_robot};
+  const std::array<SearchLayer, 2> layers = {{{&occupied_, surroundings.echoes_m}, {&free_, surroundings.free_m}}};
+  const SearchWindow window{T_map_robot, settings_.beside_m, settings_.beside_rad};
+  const std::vector<ScanMatch> best = search_distinct(layers, nullptr, window, {.min_score = 0.0, .at_most = 1});
+  const PoseHypothesis there = aligned({T_map_robot, score_of(layers, T_map_robot)}, surroundings);
+  if (best.empty()) return there;
+  const PoseHypothesis beside = aligned(best.front(), surroundings);
+  return beside.contradicted_ratio <= there.contradicted_ratio ? beside : there;
 }
 
 double PoseSearch::contradicted_ratio(const Surroundings& surroundings, const Pose2& T_map_robot) const {

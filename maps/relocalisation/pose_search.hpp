@@ -21,6 +21,8 @@ struct PoseSearchSettings {
   DistinctRules distinct{.min_score = 0.5, .min_of_best_ratio = 0.85, .apart_m = 1.0, .apart_rad = radians(30.0)};
   double min_corner_ratio = 0.1;   // of what the echoes say of the worst known direction, over the best known
   double min_matched_ratio = 0.3;  // of the echoes: near a line of the map
+  double beside_m = 0.5;
+  double beside_rad = radians(10.0);
 };
 
 // A heading of the robot in the map, as a compass knows it: within the angle, for certain.
@@ -46,6 +48,10 @@ class PoseSearch {
   // Distinct poses, best first; none when nothing fits, or when nothing has been seen.
   [[nodiscard]] std::vector<PoseHypothesis> find(const Surroundings& surroundings,
                                                  const std::optional<KnownHeading>& heading = std::nullopt) const;
+
+  // How well what has been seen fits where the robot is believed to be: the best pose within settings.beside_m and
+  // beside_rad of there, which odometry and compass may be off by after some metres. Score 0 where nothing fits.
+  [[nodiscard]] PoseHypothesis at(const Surroundings& surroundings, const Pose2& T_map_robot) const;
 
  private:
   [[nodiscard]] double contradicted_ratio(const Surroundings& surroundings, const Pose2& T_map_robot) const;

@@ -1,32 +1,17 @@
 #include "plugins/april_tags/tag_finder.hpp"
 
 #include <apriltag/apriltag.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagStandard41h12.h>
 
 #include <algorithm>
 #include <tuple>
+
+#include "plugins/common/camera/tag_codes.hpp"
 
 namespace cairn::april_tags {
 namespace {
 
 // The tables for two bits take a second and 100 MB with the largest family.
 constexpr int kCorrectedBits = 1;
-
-using Codes = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
-
-Codes codes_of(MarkerFamily family) {
-  switch (family) {
-    case MarkerFamily::tag25h9:
-      return {tag25h9_create(), tag25h9_destroy};
-    case MarkerFamily::tagStandard41h12:
-      return {tagStandard41h12_create(), tagStandard41h12_destroy};
-    case MarkerFamily::tag36h11:
-      break;
-  }
-  return {tag36h11_create(), tag36h11_destroy};
-}
 
 // A square may be printed or hung turned by quarters; the library's order goes by the print. It counts pixels from
 // their corners.
@@ -46,7 +31,7 @@ std::array<Pixel, 4> upright_corners(const apriltag_detection_t& detection) {
 }  // namespace
 
 struct TagFinder::Library {
-  std::vector<std::pair<MarkerFamily, Codes>> families;
+  std::vector<std::pair<MarkerFamily, TagCodes>> families;
   std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)> detector{apriltag_detector_create(),
                                                                                 apriltag_detector_destroy};
 };
@@ -55,7 +40,7 @@ TagFinder::TagFinder(const Config& config)
     : min_decision_margin_(config.min_decision_margin), library_(std::make_unique<Library>()) {
   apriltag_detector_t* const detector = library_->detector.get();
   for (const MarkerFamily family : families_of(config)) {
-    library_->families.emplace_back(family, codes_of(family));
+    library_->families.emplace_back(family, tag_codes_of(family));
     apriltag_detector_add_family_bits(detector, library_->families.back().second.get(), kCorrectedBits);
   }
   detector->quad_decimate = static_cast<float>(config.decimate);

@@ -10,7 +10,7 @@ namespace {
 // expected counts 6; trackers that are both right differ by some 5 %.
 constexpr double kLouder = 1.15;
 constexpr double kClearly = 12.0;
-constexpr int kMostWins = 5;  // that count
+constexpr int kMaxWins = 5;  // that count
 
 CompassBias stated_bias(const Config& config, const RobotModel& robot) {
   const double bound_rad = robot.compass_error.local_bias_rad;
@@ -68,7 +68,7 @@ PoseEstimate OdometryCompass::update_by(const Observation& observation, std::spa
     estimate = chosen_.estimate();
     estimate.sightings_refused = refused;
   } else if (is_louder(chosen_, *other_, kClearly)) {
-    wins_ = std::min(wins_ + 1, kMostWins);
+    wins_ = std::min(wins_ + 1, kMaxWins);
     begin_again();
   }
   return estimate;

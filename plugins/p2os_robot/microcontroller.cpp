@@ -155,8 +155,9 @@ void Microcontroller::begin_session(const Identity& identity) {
                                               silence = std::chrono::milliseconds(std::lround(1e3 * config_.guard_s))](
                                                  int beats) { live::write_in_silence(beats, port, stop, silence); });
   }
-  // Motors that somebody has switched off are not switched on because the line failed for a moment.
-  if (units_.has_motor_switch && holder_.empty()) write(CommandPacket(Command::enable_motors, 1));
+  // Once: motors that somebody has switched off are not switched on because the line failed for a moment.
+  if (units_.has_motor_switch && !has_enabled_motors_) write(CommandPacket(Command::enable_motors, 1));
+  has_enabled_motors_ = true;
   write(CommandPacket(Command::sonar, 1));
 }
 

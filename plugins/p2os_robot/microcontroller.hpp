@@ -70,7 +70,8 @@ class Microcontroller final : public live::BaseLink {
   double last_packet_s_ = 0.0;
   double battery_v_ = 0.0;
   double begun_s_ = 0.0;
-  bool were_motors_on_ = false;
+  bool has_enabled_motors_ = false;
+  bool were_motors_on_ = false;       // in this session
   std::string holder_;                // kept from one session to the next
   std::atomic<bool> is_held_{false};  // the same, for the thread that sends
 };

@@ -21,8 +21,8 @@ struct ChosenNetwork {
 };
 
 // ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS. As in ROS 2, ROS_LOCALHOST_ONLY=1
-// silences the last two, and SYSTEM_DEFAULT and OFF the last one. Throws std::invalid_argument with the variable, its
-// value and what is allowed.
+// silences the last two, and SYSTEM_DEFAULT the last one. OFF is refused: nobody would be met. Throws
+// std::invalid_argument with the variable, its value and what is allowed.
 [[nodiscard]] ChosenNetwork choose_network(const Config& config, const Environment& environment = process_environment);
 
 }  // namespace cairn::ros2_robot

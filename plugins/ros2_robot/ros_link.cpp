@@ -86,11 +86,12 @@ bool RosLink::connect(const Budget& budget, std::string& why) {
     (void)dds_get_subscription_matched_status(odometry_.get(), &matched);
     if (matched.current_count > 0) {
       observer_.interrupt();
+      ranges_until_s_ = live::now_s() + config_.stop_when.reconnect_s;
       return true;
     }
     std::this_thread::sleep_for(kLookEvery);
   } while (live::now_s() < until_s && !budget.exhausted());
-  why = nobody_there();
+  why = nobody_there(config_.odometry);
   return false;
 }
 
@@ -127,30 +128,43 @@ void RosLink::make_guard() {
   guard_ = guard_of({chosen_.network, config_.command, silence}, guard_program_);
 }
 
-std::string RosLink::nobody_there() const {
+std::string RosLink::nobody_there(const std::string& topic) const {
   std::set<std::string> offered;
   bool has_topic = false;
   for (const Endpoint& endpoint : participant_->publishers()) {
-    if (endpoint.topic == config_.odometry) {
+    if (endpoint.topic == topic) {
       has_topic = true;
       offered.insert(endpoint.topic + " as " + endpoint.type);
     } else if (endpoint.topic.starts_with('/') && endpoint.topic != config_.command.topic) {  // that is the guard's
       offered.insert(endpoint.topic);
     }
   }
-  if (has_topic) return fmt::format("{} is there, but does not fit: {}", config_.odometry, fmt::join(offered, ", "));
+  if (has_topic) return fmt::format("{} is there, but does not fit: {}", topic, fmt::join(offered, ", "));
   if (offered.empty())
     return fmt::format("nobody publishes anything in domain {}: is ROS_DOMAIN_ID the same, and the network?",
                        chosen_.network.domain);
   const std::vector<std::string> all(offered.begin(), offered.end());
   const std::vector<std::string> some(all.begin(), all.begin() + std::min<std::ptrdiff_t>(std::ssize(all), kMaxListed));
-  return fmt::format("nobody publishes {}{}; there are {}{}", config_.odometry, did_you_mean(config_.odometry, all),
-                     fmt::join(some, ", "), all.size() > some.size() ? ", ..." : "");
+  return fmt::format("nobody publishes {}{}; there are {}{}", topic, did_you_mean(topic, all), fmt::join(some, ", "),
+                     all.size() > some.size() ? ", ..." : "");
+}
+
+void RosLink::check_ranges_are_there(double now_s) {
+  if (!ranges_until_s_) return;
+  const std::vector<Endpoint> publishers = participant_->publishers();
+  const auto missing = std::ranges::find_if(config_.ranges, [&](const ros::RangeTopic& range) {
+    return std::ranges::none_of(publishers, [&](const Endpoint& endpoint) { return endpoint.topic == range.topic; });
+  });
+  if (missing == config_.ranges.end())
+    ranges_until_s_.reset();
+  else if (now_s >= *ranges_until_s_)
+    throw std::runtime_error(nobody_there(missing->topic));
 }
 
 bool RosLink::receive(std::vector<Observation>& seen) {
   if (guard_ && !guard_->is_there()) return false;
   velocity_->look_who_listens(live::now_s());
+  check_ranges_are_there(live::now_s());
   const auto until = std::chrono::steady_clock::now() + kReceiveWithin;
   do {
     take_frames();

@@ -55,7 +55,11 @@ class RosLink final : public live::BaseLink {
   void take_odometry(std::vector<Observation>& seen);
   // Makes one when there is none any more.
   void make_guard();
-  [[nodiscard]] std::string nobody_there() const;
+  // Of a topic that nobody publishes, or not as it should be.
+  [[nodiscard]] std::string nobody_there(const std::string& topic) const;
+  // Throws std::runtime_error when nobody has published a topic with ranges since it was connected, for as long as it
+  // waits for a robot.
+  void check_ranges_are_there(double now_s);
   // Throws std::runtime_error when two send the odometry by turns.
   void check_publisher(dds_instance_handle_t publisher, double now_s);
 
@@ -81,6 +85,7 @@ class RosLink final : public live::BaseLink {
   double publisher_changed_s_ = 0.0;
   ros::RobotObserver observer_;
   DisplayTopics display_;
+  std::optional<double> ranges_until_s_;  // they are waited for; none: they were there
 };
 
 }  // namespace cairn::ros2_robot

@@ -13,7 +13,7 @@ import yaml
 CONFIG = pathlib.Path(sys.argv.pop(1)) / "config"
 KINDS = ("mission", "sub_mission", "robot", "world", "template", "experiment")
 # Maps whose keys the schema cannot know: they are OMPL's, or a sub-mission's.
-OPEN_MAPS = ("parameters", "with")
+OPEN_MAPS = ("parameters", "with", "categories")
 
 
 def files_of(kind):

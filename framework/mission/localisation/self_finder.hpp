@@ -5,17 +5,20 @@
 // taken kAnswerAfter_s later by the mission's clock, and waited for if it is late: the same run gives the same bytes.
 // The compass, where there is one, limits how the two frames can be turned to each other.
 //
-// A printed marker of the map ends the search: two sightings that agree, from pictures that leave no second pose open.
+// A printed marker of the map ends the search: two sightings that agree, of two
+// markers or from places some way apart, from pictures that leave no second pose open.
 #pragma once
 
 #include <future>
 #include <optional>
 #include <vector>
 
+#include "framework/contracts/localizer.hpp"
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/relocalisation/pose_belief.hpp"
+#include "maps/relocalisation/start_check.hpp"
 
 namespace cairn {
 
@@ -29,6 +32,11 @@ struct LocalisationFigures {
   std::vector<PoseHypothesis> guesses;  // of the last search, best first
 };
 
+// How well a robot knows its place once it has found itself.
+inline constexpr StartUncertainty kFoundUncertainty{0.1, radians(2.0)};
+// In a frame of its own, which is turned as the compass says.
+[[nodiscard]] StartUncertainty own_frame(const RobotModel& robot);
+
 class SelfFinder {
  public:
   // The map must outlive it.
@@ -38,6 +46,11 @@ class SelfFinder {
   void update(const Observation& observation, const Pose2& T_local_robot, const OccupancyGrid& seen, double time_s);
   // After update(): markers in that observation that the map holds.
   void see_markers(const Observation& observation, const Pose2& T_local_robot, const LandmarkGraph& known);
+  // Each search also looks at where the robot is if it began at T_map_start: looks() has one more then. T_local_robot:
+  // with the first observation. The frames are the same, or turned to each other by more than a compass can be wrong.
+  void compare_with(const Pose2& T_map_start, const Pose2& T_local_robot);
+  [[nodiscard]] bool is_compared() const { return T_map_local_believed_.has_value(); }
+  [[nodiscard]] const std::vector<StartLook>& looks() const { return looks_; }
   // Where the robot's own frame lies in the map, once that is known.
   [[nodiscard]] const std::optional<Pose2>& T_map_local() const {
     return by_marker_ ? by_marker_ : belief_.T_map_local();
@@ -48,11 +61,17 @@ class SelfFinder {
   static constexpr double kAnswerAfter_s = 1.0;
 
  private:
+  struct Answer {
+    std::vector<PoseHypothesis> found;
+    std::optional<PoseHypothesis> believed;
+  };
   struct Search {
-    std::future<std::vector<PoseHypothesis>> answer;
+    std::future<Answer> answer;
     Pose2 T_local_robot;
     double begun_s = 0.0;
+    double driven_m = 0.0;
   };
+  void take(const Answer& answer);
   void follow_compass(const Observation& observation, const Pose2& T_local_robot);
   [[nodiscard]] std::optional<KnownHeading> heading(const Pose2& T_local_robot) const;
 
@@ -61,9 +80,16 @@ class SelfFinder {
   bool has_compass_;
   Point compass_sum_{0.0, 0.0};  // of unit vectors: by how much the map's frame is turned from the robot's own
   PoseBelief belief_;
-  std::optional<Pose2> marker_guess_;  // of T_map_local, by the marker seen last
+  struct MarkerGuess {
+    MarkerId marker;
+    Pose2 T_map_local;
+    Pose2 T_local_robot;  // when it was seen
+  };
+  std::optional<MarkerGuess> marker_guess_;  // by the marker that counted last
   std::optional<Pose2> by_marker_;
   int searches_ = 0;
+  std::optional<Pose2> T_map_local_believed_;
+  std::vector<StartLook> looks_;
   std::optional<Search> running_;  // last: its thread uses search_
 };
 

@@ -159,6 +159,7 @@ MissionResult MissionLoop::result() const {
   result.hearing = hearing_.summary();
   result.autosave = saving_.figures();
   result.localisation = localisation_;
+  result.start_check = start_check_;
   result.map_file = saving_.map_file();
   result.clusters = planning_.last_clusters();
   result.poses = perception_.past().poses();

@@ -17,6 +17,9 @@ class Leaves final : public TreeHost {
   // behaviours: in the order of behaviours_of() of the mission's steps.
   Leaves(const HostParts& host, const std::vector<Staged<Behaviour>>& behaviours, TextFiles texts);
 
+  // One that is in no step.
+  void add(const TreeNode& node, Staged<Behaviour> behaviour) { leaves_[&node] = {std::move(behaviour)}; }
+
   LeafTick tick_leaf(const TreeNode& leaf) override;
   void halt_leaf(const TreeNode& leaf) override;
   void started(const TreeNode& node) override;

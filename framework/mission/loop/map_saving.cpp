@@ -28,13 +28,14 @@ MapSaving::MapSaving(const Mission& mission, Options options, Planning& planning
       publisher_(publisher),
       content_(std::move(content)),
       submaps_(std::move(submaps)),
+      leaves_map_alone_(options_.leaves_map_alone),
       autosaver_(options_.folder / autosave_file_of(mission.config),
                  options_.autosaves ? mission.config.autosave.every_s : 0.0, options_.wall_clock,
                  mission.config.clusters.sizes()) {}
 
 void MapSaving::autosave() {
   report_autosave();
-  if (!autosaver_.is_due()) return;
+  if (leaves_map_alone_ || !autosaver_.is_due()) return;
   const WallClock::Time begin = options_.wall_clock->now();
   autosaver_.save(content_(planning_.last_clusters()), begin);
 }
@@ -56,7 +57,7 @@ std::string MapSaving::refusal_of(const std::string& file_name) const {
 }
 
 Status MapSaving::save(const std::string& file_name) {
-  if (options_.leaves_map_alone) return {StepState::success, "not saved: this mission leaves its map alone"};
+  if (leaves_map_alone_) return {StepState::success, "not saved: this mission leaves its map alone"};
   Status saved = write(file_name);
   if (saved.state != StepState::success && not_saved_.empty()) not_saved_ = saved.reason;
   return saved;
@@ -73,7 +74,8 @@ void MapSaving::keep_finished_map(const std::string& name, bool is_done) {
 
 // The autosave has done its work when a whole map has taken its place.
 std::string MapSaving::save_last(bool is_done) {
-  if (options_.leaves_map_alone) {
+  if (leaves_map_alone_) {
+    autosaver_.finish();
     explored_ratio_ = world_.explored_ratio();
     return {};
   }

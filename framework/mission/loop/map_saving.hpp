@@ -27,6 +27,8 @@ class MapSaving {
   MapSaving(const Mission& mission, Options options, Planning& planning, const WorldState& world, Publisher& publisher,
             std::function<SavedMap(ClusterTree)> content, std::function<KeptSubmaps()> submaps);
 
+  // While it is, nothing is saved.
+  void leave_map_alone(bool is_left_alone) { leaves_map_alone_ = is_left_alone; }
   // Once a tick. Changes nothing of what the mission does next.
   void autosave();
   // For a step. Success, or failure with its reason, which save_last() remembers.
@@ -52,6 +54,7 @@ class MapSaving {
   Publisher& publisher_;
   const std::function<SavedMap(ClusterTree)> content_;
   const std::function<KeptSubmaps()> submaps_;
+  bool leaves_map_alone_;
   Autosaver autosaver_;
   bool autosave_has_failed_ = false;
   std::string map_file_;

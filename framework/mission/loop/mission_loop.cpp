@@ -13,15 +13,11 @@ Budget budget_of(const RunOptions& options) {
   return budget;
 }
 
-// How well a robot knows its place once it has found itself.
-constexpr StartUncertainty kFound{0.1, radians(2.0)};
-constexpr double kAnyHeading_rad = 2.0;  // standard deviation
-
 std::optional<LocalizerStart> start_of(const RunOptions& options, const RobotModel& robot) {
   if (!options.localise_in) return std::nullopt;
-  if (options.localise_in->T_map_start) return LocalizerStart{*options.localise_in->T_map_start, kFound};
+  if (options.localise_in->T_map_start) return LocalizerStart{*options.localise_in->T_map_start, kFoundUncertainty};
   // A frame of its own, turned as the compass says.
-  return LocalizerStart{{}, {0.0, robot.has_compass ? kAnyHeading_rad : 0.0}};
+  return LocalizerStart{{}, own_frame(robot)};
 }
 
 const SavedMap* map_of(const RunOptions& options) {
@@ -67,41 +63,13 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
   world_.hierarchies = &planning_.hierarchies();
   world_.speed_law = mission_.config.collision_monitor.speed_law();
   if (options.resume != nullptr) restore(*options.resume);
+  if (options.resume != nullptr) begin_start_check();
   if (options.localise_in) begin_localisation(*options.localise_in);
-}
-
-void MissionLoop::begin_localisation(const LocaliseIn& localise) {
-  localisation_.emplace();
-  localisation_->is_pose_given = localise.T_map_start.has_value();
-  perception_.leave_alone(*map_left_alone_, localise.map->graph, !localise.T_map_start);
-  if (localise.T_map_start) return;
-  world_.pose.trust = PoseTrust::lost;
-  finder_.emplace(*map_left_alone_, mission_.robot);
-}
-
-// From the tick on at which it is believed, all see the map and the robot's place in it.
-void MissionLoop::find_itself() {
-  finder_->update(world_.observation, world_.pose.T_map_robot, *world_.grid, world_.time_s);
-  finder_->see_markers(world_.observation, world_.pose.T_map_robot, perception_.tracker().graph());
-  localisation_ = finder_->figures();
-  if (!finder_->T_map_local()) return;
-  const Pose2 T_map_local = *finder_->T_map_local();
-  const Pose2 T_map_robot = T_map_local * world_.pose.T_map_robot;
-  localisation_->found_s = world_.time_s;
-  localisation_->T_map_robot = T_map_robot;
-  finder_.reset();
-  world_.T_map_start = T_map_local * world_.T_map_start;
-  world_.grid = &perception_.settle(build_localizer(mission_, library_, {T_map_robot, kFound}));
-  world_.coarse = nullptr;
-  world_.pose = perception_.localize(world_.observation);
-  publisher_.publish(
-      Message{fmt::format("found itself after {:.1f} m: at ({:.2f}, {:.2f}) m, {:.0f} degrees", localisation_->driven_m,
-                          T_map_robot.x_m, T_map_robot.y_m, degrees(T_map_robot.theta_rad))});
 }
 
 // A map that is left alone keeps the routes that it has.
 void MissionLoop::connect_landmarks() {
-  if (!options_.localise_in) planning_.connect(perception_.tracker(), world_.view());
+  if (!options_.localise_in && !world_.is_lost()) planning_.connect(perception_.tracker(), world_.view());
 }
 
 void MissionLoop::run() {
@@ -167,7 +135,7 @@ void MissionLoop::tick(Sensed sensed) {
   in(stages.perception, [&] { perception_.see_markers(world_.observation); });
 
   world_.pose = in(stages.perception, [&] { return perception_.localize(observation); });
-  if (finder_) in(stages.perception, [&] { find_itself(); });
+  if (finder_) in(stages.perception, [&] { look_where_robot_is(); });
   if (perception_.is_map_moved()) in(stages.perception, [&] { redraw_map(); });
   const std::vector<ExpectedEcho> expected = in(stages.echo_prediction, [&] { return expected_of(observation); });
   const CellChanges& cells = in(stages.perception, [&]() -> const CellChanges& {
@@ -187,7 +155,7 @@ void MissionLoop::tick(Sensed sensed) {
   in(stages.run_control, [&] {
     if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   });
-  in(stages.autosave, [&] { saving_.autosave(); });
+  if (!is_start_open()) in(stages.autosave, [&] { saving_.autosave(); });
 }
 
 void MissionLoop::take(Sensed sensed) {

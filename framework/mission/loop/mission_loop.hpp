@@ -19,6 +19,7 @@
 #include "framework/mission/perception/perception.hpp"
 #include "framework/modules/plausibility.hpp"
 #include "framework/safety/fatal_ends.hpp"
+#include "maps/relocalisation/start_check.hpp"
 
 namespace cairn {
 
@@ -95,6 +96,11 @@ class MissionLoop {
   void save_last();
   void redraw_map();
   void begin_localisation(const LocaliseIn& localise);
+  void begin_start_check();
+  [[nodiscard]] bool is_start_open() const;
+  void look_where_robot_is();
+  void check_start();
+  void lose_itself();
   void find_itself();
   void connect_landmarks();
   [[nodiscard]] Stalled stalled_for(double for_s) const;
@@ -128,7 +134,8 @@ class MissionLoop {
   Orders orders_;
   DisplayFeed display_;
   Steps steps_;
-  std::optional<SelfFinder> finder_;  // while the robot does not know where it is
+  std::optional<StartCheck> start_check_;  // of a run that goes on: whether the robot was carried
+  std::optional<SelfFinder> finder_;       // while the robot does not know where it is, or is checked
   Ending ending_;
   FatalEnds fatal_ends_;  // the last: what it shows must be there
 };

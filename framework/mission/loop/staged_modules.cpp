@@ -34,6 +34,7 @@ StagedModules::StagedModules(const MissionModules& modules, const Mission& missi
   const std::vector<const TreeNode*> nodes = behaviours_of(mission.steps);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     behaviours.push_back(staged(modules.behaviours[i], "behaviour", nodes[i]->choice));
+  find_myself = staged(modules.find_myself, "behaviour", {kFindMyself, {}});
   drive = clock.add("drive", config.sensor.name);
   has_drive = sensor && sensor.call([](Sensor& source) { return source.drive(); }) != nullptr;
   if (MissionDisplay* const shown = sensor ? sensor.call([](Sensor& source) { return source.display(); }) : nullptr)

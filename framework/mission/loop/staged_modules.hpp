@@ -44,6 +44,7 @@ struct StagedModules {
   Staged<Planner> routes;                     // the same, when it joins landmarks
   Staged<Controller> controller;              // may be none
   std::vector<Staged<Behaviour>> behaviours;  // in the order of behaviours_of()
+  Staged<Behaviour> find_myself;              // may be none
   StageClock::Id drive = StageClock::kHost;
   Staged<MissionDisplay> display;  // may be none
   bool has_drive = false;          // else the sensor plays back what others have driven

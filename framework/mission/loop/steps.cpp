@@ -32,7 +32,30 @@ void Steps::restore_tree(const SavedMap& map) {
   }
 }
 
+void Steps::recover_by(Staged<Behaviour> behaviour, const std::string& name) {
+  recovery_node_.name = recovery_node_.choice.name = name;
+  recovery_node_.path = "0";  // before the first step of the file
+  leaves_.add(recovery_node_, std::move(behaviour));
+  recovery_.emplace(recovery_node_, leaves_);
+}
+
+void Steps::lose() {
+  if (is_under_way_) trees_[step_].begin_leaves_afresh();
+  is_recovering_ = recovery_.has_value();
+  if (!recovery_) failure_ = "the robot does not know where it is, and no module can find out";
+}
+
+// It ends itself in the tick after the robot was found.
+StepsTick Steps::recover(double time_s) {
+  const Status status = recovery_->tick(time_s);
+  if (status.state == StepState::running) return {recovery_->wanted().value_or(Twist{}), false};
+  is_recovering_ = false;
+  if (status.state == StepState::failure) failure_ = recovery_node_.name + ": " + status.reason;
+  return {};
+}
+
 StepsTick Steps::tick(double time_s) {
+  if (is_recovering_) return recover(time_s);
   if (are_done()) return {};
   const TreeNode& step = steps_[step_];
   TreeRunner& tree = trees_[step_];
@@ -69,6 +92,13 @@ void Steps::close_report(double time_s, const std::string& reason) {
 
 std::vector<std::string> Steps::halt(double time_s, const std::string& reason) {
   std::vector<std::string> faults;
+  if (is_recovering_) {
+    try {
+      recovery_->halt(time_s, reason);
+    } catch (const ModuleFault& fault) {
+      faults.emplace_back(fault.what());
+    }
+  }
   if (!is_under_way_) return faults;
   close_report(time_s, "halted: " + reason);
   while (trees_[step_].is_running()) {
@@ -82,6 +112,7 @@ std::vector<std::string> Steps::halt(double time_s, const std::string& reason) {
 }
 
 void Steps::abandon(double time_s, const std::string& reason) {
+  if (is_recovering_) recovery_->abandon(time_s, "given up: " + reason);
   if (!is_under_way_) return;
   close_report(time_s, "given up: " + reason);
   trees_[step_].abandon(time_s, reports_.back().status.reason);
@@ -89,6 +120,7 @@ void Steps::abandon(double time_s, const std::string& reason) {
 
 std::vector<NodeReport> Steps::node_reports() const {
   std::vector<NodeReport> all;
+  if (recovery_) all = recovery_->reports();
   for (const TreeRunner& tree : trees_)
     for (const NodeReport& report : tree.reports()) all.push_back(report);
   return all;
@@ -114,8 +146,8 @@ void Steps::describe(RunStatus& status) const {
 }
 
 void Steps::describe_doing(RunStatus& status) const {
-  if (are_done()) return;
-  const auto doing = trees_[step_].doing();
+  if (are_done() && !is_recovering_) return;
+  const auto doing = is_recovering_ ? recovery_->doing() : trees_[step_].doing();
   if (!doing) return;
   status.node = doing->path;
   status.doing = doing->reason;

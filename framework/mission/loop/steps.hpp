@@ -26,6 +26,11 @@ class Steps {
   // For people: why the step under way begins afresh although the map holds where it was. Empty: it does not.
   [[nodiscard]] const std::string& not_restored() const { return not_restored_; }
 
+  // While the robot is lost, that behaviour is ticked in the place of the steps. At most once, before all below.
+  void recover_by(Staged<Behaviour> behaviour, const std::string& name);
+  // The robot does not know where it is any more. The step under way waits, and what it does then begins afresh.
+  void lose();
+
   // Throws ModuleFault.
   StepsTick tick(double time_s);
   // The step under way, if any, is left. Sentences on modules that failed meanwhile.
@@ -52,12 +57,16 @@ class Steps {
   void begin(const std::string& name, double time_s);
   void end(const TreeNode& step, const Status& status, double time_s);
   void close_report(double time_s, const std::string& reason);
+  StepsTick recover(double time_s);
   void restore_tree(const SavedMap& map);
 
   const std::vector<TreeNode>& steps_;
   Publisher& publisher_;
   Leaves leaves_;
   std::vector<TreeRunner> trees_;  // one a step
+  TreeNode recovery_node_;
+  std::optional<TreeRunner> recovery_;
+  bool is_recovering_ = false;
   std::vector<StepReport> reports_;
   std::size_t step_ = 0;
   bool is_under_way_ = false;

@@ -43,6 +43,39 @@ const OccupancyGrid& Perception::settle(std::shared_ptr<Localizer> localizer) {
   return *grid_;
 }
 
+void Perception::draw_own_map(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper) {
+  const OccupancyGrid& grid = modules_.mapper.call([&](Mapper&) -> const OccupancyGrid& { return mapper->grid(); });
+  own_ = OwnMap{std::move(localizer), std::move(mapper), &grid};
+  before_ = Before{tracker_.graph(), tracker_.candidates(), tracker_.driven_path()};
+}
+
+const OccupancyGrid& Perception::lose() {
+  tracker_.restore(std::move(before_->graph), std::move(before_->candidates), std::move(before_->driven_path));
+  forgotten_ = grid_->bounds();
+  grid_ = own_->grid;
+  modules_.localizer.replace(std::move(own_->localizer));
+  modules_.mapper.replace(std::move(own_->mapper));
+  drop_own_map();
+  use_ = MapUse::lost;
+  history_ = nullptr;
+  return *grid_;
+}
+
+const OccupancyGrid& Perception::go_on(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper) {
+  modules_.localizer.replace(std::move(localizer));
+  modules_.mapper.replace(std::move(mapper));
+  use_ = MapUse::grows;
+  drawn_ = 0;
+  revision_ = 0;
+  return begin(records_poses_);
+}
+
+void Perception::localize_in_own_map(const Observation& observation) {
+  const KnownMap known{*own_->grid, no_landmarks_};
+  own_->pose = modules_.localizer.call([&](Localizer&) { return own_->localizer->update(observation, known); });
+  if (const std::string fault = fault_of(own_->pose); !fault.empty()) throw modules_.localizer.fault(fault);
+}
+
 const OccupancyGrid& Perception::begin(bool records_poses) {
   if (use_ == MapUse::grows)
     history_ = modules_.localizer.call([](Localizer& localizer) { return localizer.history(); });
@@ -59,7 +92,7 @@ const CoarseGrid* Perception::show_earlier_map() {
   const std::atomic<bool> cancelled = true;
   Budget nothing;
   nothing.cancel = &cancelled;
-  return detect(everything_in(grid_->bounds()), nothing).coarse;
+  return detect(everything_in(united(grid_->bounds(), forgotten_)), nothing).coarse;
 }
 
 void Perception::see_markers(Observation& observation) {
@@ -81,6 +114,7 @@ PoseEstimate Perception::localize(const Observation& observation) {
   PoseEstimate pose =
       modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, known); });
   if (const std::string fault = fault_of(pose); !fault.empty()) throw modules_.localizer.fault(fault);
+  if (own_) localize_in_own_map(observation);
   pose.trust = use_ == MapUse::lost ? PoseTrust::lost : PoseTrust::tracking;
   return pose;
 }
@@ -99,6 +133,7 @@ const CellChanges& Perception::map(const Observation& observation, const PoseEst
     std::erase_if(for_map_.ranges, is_unheard);
   }
   const Observation& seen = all ? observation : for_map_;
+  if (own_) modules_.mapper.call([&](Mapper&) { own_->mapper->integrate(seen, own_->pose); });
   if (records_poses_ && use_ != MapUse::lost) past_.add(seen, pose.T_map_robot);
   if (use_ == MapUse::left_alone) {
     changes_ = {};
@@ -173,6 +208,7 @@ Perception::Detected Perception::detect(const CellChanges& changes, const Budget
 
 Recognition Perception::recognise(const CellChanges& changes, double time_s, std::span<const MarkerSighting> markers) {
   Recognition recognised;
+  if (use_ == MapUse::lost) return recognised;
   if (config_.markers && use_ == MapUse::grows) add_events(tracker_.update(markers), recognised.events);
   if (!modules_.detector) return recognised;
   auto [report, coarse] = detect(changes, budget_);

@@ -34,10 +34,26 @@ class Perception {
   void leave_alone(const OccupancyGrid& map, LandmarkGraph graph, bool is_lost);
   // The robot has found where in that map it is: from here on by this localizer. The map's grid.
   const OccupancyGrid& settle(std::shared_ptr<Localizer> localizer);
+  // Beside all else a small map is drawn by another localizer, which knows no map. Before begin().
+  void draw_own_map(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper);
+  [[nodiscard]] bool draws_own_map() const { return own_.has_value(); }
+  // By that localizer, and that map; while it is drawn.
+  [[nodiscard]] const PoseEstimate& own_pose() const { return own_->pose; }
+  [[nodiscard]] const OccupancyGrid& own_grid() const { return *own_->grid; }
+  // And what lose() would go back to.
+  void drop_own_map() {
+    own_.reset();
+    before_.reset();
+  }
   // Once, before all below: asks the mapper for its grid. Throws ModuleFault, as all below do.
   // records_poses: whether past() holds them also when the localizer never corrects any.
   const OccupancyGrid& begin(bool records_poses = false);
-  // Once, then: shows the detector what an earlier run has mapped; its coarse grid.
+  // The robot does not stand where an earlier run has left it: what was recognised since is forgotten (the last call of
+  // restore() holds again), and the own map takes the place of the other. Its grid.
+  const OccupancyGrid& lose();
+  // The robot has found where it is: from here on by this localizer, and in this map. Its grid.
+  const OccupancyGrid& go_on(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper);
+  // Once, then, and after go_on(): shows the detector what an earlier run has mapped; its coarse grid.
   const CoarseGrid* show_earlier_map();
 
   // The stages of a tick, in their order.
@@ -69,6 +85,20 @@ class Perception {
     DetectionReport report;
     const CoarseGrid* coarse = nullptr;
   };
+  // A map beside the mission's, in a frame of its own.
+  struct OwnMap {
+    std::shared_ptr<Localizer> localizer;
+    std::shared_ptr<Mapper> mapper;
+    const OccupancyGrid* grid = nullptr;
+    PoseEstimate pose{};
+  };
+  // What restore() was given.
+  struct Before {
+    LandmarkGraph graph;
+    LandmarkGraph candidates;
+    std::vector<Pose2> driven_path;
+  };
+  void localize_in_own_map(const Observation& observation);
   [[nodiscard]] Detected detect(const CellChanges& changes, const Budget& budget);
   [[nodiscard]] double correct_past(std::size_t newer);
   void add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const;
@@ -86,6 +116,9 @@ class Perception {
   MapUse use_ = MapUse::grows;
   const OccupancyGrid* map_left_alone_ = nullptr;
   const LandmarkGraph no_landmarks_;
+  std::optional<OwnMap> own_;
+  std::optional<Before> before_;
+  CellBox forgotten_;  // where something was drawn that lose() has forgotten
   bool records_poses_ = false;
   PoseHistory* history_ = nullptr;  // the localizer's
   Past past_;

@@ -7,12 +7,11 @@
 #include <stdexcept>
 
 #include "framework/config/coordinates.hpp"
+#include "framework/mission/modules.hpp"
 #include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
-
-constexpr const char* kFindMyself = "find_myself";
 
 Pose2 pose_of(const std::string& text) {
   const std::vector<double> numbers = coordinates_in(text).value_or(std::vector<double>{});

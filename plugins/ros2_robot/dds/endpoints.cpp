@@ -23,8 +23,7 @@ std::string plain(const std::string& text) {
   return text;
 }
 
-// Robots that are to keep to this computer may bind to the loopback, or not: both are met
-// on two interfaces.
+// Robots that are to keep to this computer may bind to the loopback, or not: both are met on two interfaces.
 std::string interfaces_of(const NetworkChoice& network) {
   constexpr const char* kLoopback = "<NetworkInterface name=\"lo\" multicast=\"false\"/>";
   if (network.is_local) return kLoopback;

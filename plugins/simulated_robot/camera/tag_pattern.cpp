@@ -1,35 +1,16 @@
 #include "plugins/simulated_robot/camera/tag_pattern.hpp"
 
 #include <apriltag/apriltag.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagStandard41h12.h>
 
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "plugins/common/camera/tag_codes.hpp"
+
 namespace cairn {
-namespace {
-
-using Family = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
-
-Family family_of(MarkerFamily family) {
-  switch (family) {
-    case MarkerFamily::tag25h9:
-      return {tag25h9_create(), tag25h9_destroy};
-    case MarkerFamily::tagStandard41h12:
-      return {tagStandard41h12_create(), tagStandard41h12_destroy};
-    case MarkerFamily::tag36h11:
-      break;
-  }
-  return {tag36h11_create(), tag36h11_destroy};
-}
-
-}  // namespace
-
 TagPattern pattern_of(const MarkerId& marker) {
-  const Family family = family_of(marker.family);
+  const TagCodes family = tag_codes_of(marker.family);
   if (marker.number < 0 || marker.number >= static_cast<int>(family->ncodes))
     throw std::invalid_argument("marker family " + std::string(name_of(marker.family)) + " has no number " +
                                 std::to_string(marker.number));

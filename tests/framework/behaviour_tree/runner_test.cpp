@@ -58,6 +58,19 @@ TEST(TreeRunner, ASequenceGoesOnWhereItWas) {
           {"afresh after its end", tree, {{"a", "S"}, {"b", "FS"}, {"c", "S"}}, 2, "FS", "a b | a b c"}});
 }
 
+TEST(TreeRunner, LeavesUnderWayBeginAfreshAndTheNodesAboveThemGoOn) {
+  const std::vector<TreeNode> steps = steps_of("[sequence: [a, b, c]]");
+  ScriptedLeaves leaves({{"a", "S"}, {"b", "RRS"}, {"c", "S"}});
+  TreeRunner runner(steps.front(), leaves);
+  EXPECT_EQ(runner.tick(0.0).state, StepState::running);
+  runner.begin_leaves_afresh();
+  EXPECT_TRUE(runner.is_running());
+  EXPECT_FALSE(runner.wanted());
+  leaves.log += " |";
+  EXPECT_EQ(runner.tick(1.0).state, StepState::running);
+  EXPECT_EQ(leaves.log, "a b !b | b") << "a is not ticked again";
+}
+
 TEST(TreeRunner, AFallbackGoesOnWhereItWas) {
   const std::string tree = "[fallback: [a, b, c]]";
   expect({{"the first success ends it", tree, {{"a", "S"}, {"b", "S"}, {"c", "S"}}, 1, "S", "a"},

@@ -62,27 +62,41 @@ TEST_F(MissionModulesTest, ACheckFindsEveryModuleThatIsWrong) {
 
 class FaultySensor : public Sensor {
  public:
+  explicit FaultySensor(bool is_simulated) : is_simulated_(is_simulated) {}
   SensorStep next(const Budget&) override {
     SensorStep step;
     step.state = SensorState::fault;
     step.reason = "the robot cannot start in a wall";
     return step;
   }
+  [[nodiscard]] const GroundTruthSource* truth() const override { return is_simulated_ ? &truth_ : nullptr; }
+
+ private:
+  struct NoTruth : GroundTruthSource {
+    [[nodiscard]] std::optional<GroundTruth> last_truth() const override { return std::nullopt; }
+  };
+  NoTruth truth_;
+  bool is_simulated_;
 };
 
 TEST_F(MissionModulesTest, ACheckFindsAStartInAWorldThatTheSensorRefuses) {
   Registrar registrar;
   registrar.add<Sensor, NoConfig>("faulty_sensor", "has a fault at once", [](const NoConfig&, const SensorContext&) {
-    return std::make_unique<FaultySensor>();
+    return std::make_unique<FaultySensor>(true);
+  });
+  registrar.add<Sensor, NoConfig>("live_sensor", "of a real robot", [](const NoConfig&, const SensorContext&) {
+    return std::make_unique<FaultySensor>(false);
   });
   ModuleLibrary library = still::library();
   library.add("(the test's own)", registrar);
   mission_.config.sensor.name = "faulty_sensor";
   mission_.config.sensor.config.entries.clear();
   mission_.start_place = {"m.yaml", 5, 16};
-  EXPECT_TRUE(check_modules(mission_, library).empty()) << "a sensor of a real robot is not asked";
+  EXPECT_TRUE(check_modules(mission_, library).empty()) << "without a world there is no wall";
   mission_.world = World{};
   EXPECT_THAT(check_modules(mission_, library), ElementsAre("m.yaml:5:16: the robot cannot start in a wall"));
+  mission_.config.sensor.name = "live_sensor";
+  EXPECT_TRUE(check_modules(mission_, library).empty()) << "a sensor of a real robot is not asked";
 }
 
 TEST_F(MissionModulesTest, GoOnWithAMapThatTheMapModuleMustTakeOver) {

@@ -114,6 +114,31 @@ TEST(PoseSearch, BareWallsOfACorridorHoldNoPoseAlongThem) {
   for (const PoseHypothesis& guess : found) EXPECT_FALSE(guess.is_held_by_corners);
 }
 
+TEST(PoseSearch, ABelievedPoseIsScoredThereOrJustBeside) {
+  const OccupancyGrid map = two_rooms(true);
+  const Pose2 T_map_robot{9.0, 2.5, 0.0};
+  const Surroundings around = surroundings_of(seen_in(map, T_map_robot, right_room(map)), {});
+  const PoseSearch search(map);
+  const PoseHypothesis right = search.at(around, T_map_robot);
+  EXPECT_GT(right.score, 0.7);
+  EXPECT_LT(right.contradicted_ratio, 0.02);
+  const PoseHypothesis drifted = search.at(around, {9.3, 2.2, radians(7.0)});
+  EXPECT_NEAR(drifted.score, right.score, 0.02);
+  EXPECT_LT((drifted.T_map_robot.position() - T_map_robot.position()).norm(), 0.08);
+  const PoseHypothesis carried = search.at(around, {7.5, 3.5, radians(40.0)});
+  EXPECT_LT(carried.score, 0.8 * right.score);
+  EXPECT_GT(carried.contradicted_ratio, 0.1);
+}
+
+TEST(PoseSearch, NothingThatWasSeenSaysNothingOfABelievedPose) {
+  const PoseHypothesis nothing = PoseSearch(two_rooms(true)).at({}, {1.0, 2.0, 0.3});
+  EXPECT_EQ(nothing.score, 0.0);
+  EXPECT_EQ(nothing.contradicted_ratio, 0.0);
+  EXPECT_EQ(nothing.T_map_robot.x_m, 1.0);
+  const PoseHypothesis nowhere = PoseSearch(OccupancyGrid(0.05)).at({{{1.0, 0.0}}, {{0.0, 0.0}}}, {});
+  EXPECT_EQ(nowhere.score, 0.0);
+}
+
 TEST(PoseSearch, NothingSeenOrAnEmptyMapGivesNoGuess) {
   EXPECT_TRUE(PoseSearch(two_rooms(true)).find({}).empty());
   EXPECT_TRUE(PoseSearch(OccupancyGrid(0.05)).find({{{1.0, 0.0}}, {{0.0, 0.0}}}).empty());

@@ -62,12 +62,19 @@ class P2osRobot : public testing::Test {
   [[nodiscard]] auto stands() {
     return [this](double within_s) { return pioneer.wait_for_wheels(false, within_s).has_value(); };
   }
-  // The same in another process, without end.
+  // The same until it is that fast, which takes longer on a busy machine.
+  [[nodiscard]] bool comes_to_speed(live::LiveRobot& driven) const {
+    const auto is_there = [&] { return std::abs(pioneer.v_mps() - 0.2) < 1e-9; };
+    for (const double begin_s = live::now_s(); !is_there() && live::now_s() - begin_s < 3.0;) drive(driven, 0.05);
+    return is_there();
+  }
+  // The same in another process, until the line is gone.
   [[nodiscard]] pid_t drive_elsewhere() const {
     const pid_t process = ::fork();
     if (process == 0) {
       const auto driven = connected();
-      for (;;) drive(*driven, 1.0);
+      while (driven->next({}).state == SensorState::observation) driven->drive()->command({0.2, 0.0}, 0.3);
+      ::_exit(1);
     }
     return process;
   }
@@ -85,7 +92,7 @@ TEST_F(P2osRobot, DrivesAndSeesWhereItIs) {
   EXPECT_FALSE(first.compass_rad);
   EXPECT_FALSE(first.bumped);
   drive(*driven, 1.0);
-  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_TRUE(comes_to_speed(*driven));
   const Observation last = next_of(*driven);
   EXPECT_GT(last.T_odom_robot.x_m, 0.08);
   EXPECT_LT(last.T_odom_robot.x_m, 0.3);
@@ -152,7 +159,7 @@ TEST_F(P2osRobot, GoesOnWithAnotherGuardWhenItsOwnIsKilled) {
   ASSERT_EQ(guards.size(), 1U);
   ::kill(guards[0], SIGKILL);
   drive(*driven, 1.0);
-  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_TRUE(comes_to_speed(*driven));
   ASSERT_EQ(children().size(), 1U);
   EXPECT_NE(children()[0], guards[0]);
 }
@@ -169,7 +176,7 @@ TEST_F(P2osRobot, StandsWhenTheBaseSaysNothingAndGoesOnWhenItDoes) {
   (void)next_of(*driven);  // waits through the silence
   again.join();
   drive(*driven, 0.5);
-  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_TRUE(comes_to_speed(*driven));
 }
 
 TEST_F(P2osRobot, DamagedPacketsAreLeftOut) {
@@ -184,7 +191,7 @@ TEST_F(P2osRobot, PacketsThatComeTwiceChangeNothing) {
   pioneer.is_doubling = true;
   const double begin_m = next_of(*driven).T_odom_robot.x_m;
   drive(*driven, 1.0);
-  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_TRUE(comes_to_speed(*driven));
   EXPECT_NEAR(next_of(*driven).T_odom_robot.x_m - begin_m, 0.15, 0.06);
   drive(*driven, 0.2);
   const TimeToStand time("no order any more, packets come twice");
@@ -219,7 +226,7 @@ TEST_F(P2osRobot, ACableThatIsPulledWhileItTurnsStopsItByItsWatchdogAndForGood) 
   EXPECT_EQ(driven.next({}).state, SensorState::observation) << "it is connected to again";
   again.join();
   drive(driven, 1.0);
-  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_TRUE(comes_to_speed(driven));
   std::filesystem::remove(cable);
 }
 
@@ -255,7 +262,25 @@ TEST_F(P2osRobot, MotorsThatAreSwitchedOffHoldItUntilAPersonSwitchesThemOn) {
   pioneer.flags = 1;
   drive(*driven, 1.0);
   EXPECT_EQ(next_of(*driven).stopped_by, "");
-  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_TRUE(comes_to_speed(*driven));
+}
+
+TEST_F(P2osRobot, MotorsThatAreSwitchedOffWhileTheLineIsSilentStayOff) {
+  const auto driven = connected();
+  drive(*driven, 0.5);
+  pioneer.is_silent = true;
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  pioneer.flags = 0;
+  std::thread again([this] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+    pioneer.is_silent = false;
+  });
+  (void)next_of(*driven);
+  again.join();
+  drive(*driven, 1.5);
+  EXPECT_THAT(next_of(*driven).stopped_by, HasSubstr("its motors, which are switched off"));
+  EXPECT_EQ(pioneer.v_mps(), 0.0);
+  EXPECT_EQ(pioneer.enables(), 1) << "not by Cairn";
 }
 
 TEST_F(P2osRobot, ItsEmergencyButtonHoldsIt) {
@@ -273,7 +298,7 @@ TEST_F(P2osRobot, ItsEmergencyButtonHoldsIt) {
   pioneer.flags = 1;
   drive(*driven, 1.0);
   EXPECT_EQ(next_of(*driven).stopped_by, "");
-  EXPECT_NEAR(pioneer.v_mps(), 0.2, 1e-9);
+  EXPECT_TRUE(comes_to_speed(*driven));
 }
 
 TEST_F(P2osRobot, MotorsThatDoNotComeOnAreSaid) {

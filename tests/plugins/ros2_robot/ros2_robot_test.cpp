@@ -275,6 +275,18 @@ TEST(Ros2Robot, SaysWhoIsThereWhenItsTopicIsNot) {
               HasSubstr("nobody publishes /odon (did you mean \"/odom\"?); there are /e_stop, /odom, /sonar"));
 }
 
+TEST(Ros2Robot, SaysWhichRangesNobodyPublishes) {
+  const RosBase base;
+  Config other = config();
+  other.stop_when.reconnect_s = 2.0;
+  other.ranges[0].topic = "/robot1/sonar";
+  const auto driven = connected(other);
+  SensorStep step;
+  for (const double begin_s = live::now_s(); live::now_s() - begin_s < 20.0 && step.state != SensorState::fault;)
+    step = driven->next({});
+  EXPECT_THAT(step.reason, HasSubstr("nobody publishes /robot1/sonar"));
+}
+
 TEST(Ros2Robot, SaysThatNobodyIsThere) {
   Config lonely = config();
   lonely.stop_when.reconnect_s = 0.2;

@@ -1,0 +1,63 @@
+// Whether a robot that goes on with a saved map still stands where the map was left, or was carried while it was off.
+//
+// Two measures of the pose that it is believed to have: how much of what it has seen contradicts the map there, and
+// whether another place of the map fits clearly better. The score alone says little: where the map is not finished,
+// much of what is seen right is unknown to it. docs/results/kidnapped.md has the distributions that the rules are
+// chosen by.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "maps/relocalisation/pose_search.hpp"
+
+namespace cairn {
+
+// What a search has found beside the pose that the robot was believed to have.
+struct StartLook {
+  double driven_m = 0.0;
+  PoseHypothesis believed;
+  std::optional<PoseHypothesis> elsewhere;  // the best pose that is not that one, if it is as good as a guess
+};
+
+struct StartCheckRules {
+  // A look is against the pose when at least so much contradicts it and it scores at most so much, ...
+  double contradicted_ratio = 0.08;
+  double max_score = 0.72;
+  // ... or when a place elsewhere scores clearly more, and is contradicted by half of what contradicts the pose.
+  double contradicted_ratio_beside = 0.05;
+  double clear_ratio = 0.85;
+  int looks_against = 2;    // in a row: the robot was carried
+  double open_for_m = 6.0;  // driven: then it has stayed
+};
+
+enum class StartTrust : std::uint8_t {
+  open,      // nothing is known yet, or nothing speaks against the pose so far
+  doubtful,  // the last look was against it
+  stayed,
+  carried
+};
+[[nodiscard]] std::string_view name_of(StartTrust trust);
+
+class StartCheck {
+ public:
+  explicit StartCheck(const StartCheckRules& rules = {}) : rules_(rules) {}
+
+  // In their order. Once it has stayed or was carried, that does not change any more.
+  void update(const StartLook& look);
+  [[nodiscard]] StartTrust trust() const { return trust_; }
+  [[nodiscard]] bool is_open() const { return trust_ == StartTrust::open || trust_ == StartTrust::doubtful; }
+  [[nodiscard]] const std::vector<StartLook>& looks() const { return looks_; }
+
+ private:
+  [[nodiscard]] bool is_against(const StartLook& look) const;
+
+  StartCheckRules rules_;
+  StartTrust trust_ = StartTrust::open;
+  int against_ = 0;  // in a row
+  std::vector<StartLook> looks_;
+};
+
+}  // namespace cairn
