@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Config config() {
+Config image_config() {
   Config made;
   made.domain = 1 + static_cast<int>(::getpid() % 99);
   made.network = Network::localhost;
@@ -25,7 +25,7 @@ Config config() {
   return made;
 }
 
-RobotModel robot() {
+RobotModel robot_with_cameras() {
   RobotModel model;
   model.sonars.resize(1);
   model.cameras.resize(2);
@@ -90,7 +90,7 @@ class ImageTopicsTest : public testing::Test {
         std::ranges::count(participant_.subscribers(), topic, [](const Endpoint& endpoint) { return endpoint.topic; }));
   }
 
-  Participant participant_{{config().domain, true, "", {}}};
+  Participant participant_{{image_config().domain, true, "", {}}};
   Entity odometry_ = participant_.writer("/odom", nav_msgs_msg_dds__Odometry__desc);
   Entity left_ = participant_.writer("/left", sensor_msgs_msg_dds__Image__desc);
   Entity right_ = participant_.writer("/right", sensor_msgs_msg_dds__CompressedImage__desc);
@@ -102,7 +102,7 @@ class ImageTopicsTest : public testing::Test {
 };
 
 TEST_F(ImageTopicsTest, BothKindsOfPicturesComeWithTheOdometry) {
-  const auto link = link_to(config(), robot(), {}, {}, true);
+  const auto link = link_to(image_config(), robot_with_cameras(), {}, {}, true);
   const std::vector<CameraImage> images = seen_by(*link);
   const auto raw = std::ranges::find(images, 1, &CameraImage::camera);
   const auto packed = std::ranges::find(images, 0, &CameraImage::camera);
@@ -115,29 +115,29 @@ TEST_F(ImageTopicsTest, BothKindsOfPicturesComeWithTheOdometry) {
 }
 
 TEST_F(ImageTopicsTest, NothingIsSubscribedToWhenNobodyWantsPictures) {
-  const auto link = link_to(config(), robot());
+  const auto link = link_to(image_config(), robot_with_cameras());
   EXPECT_TRUE(seen_by(*link).empty());
   EXPECT_EQ(subscribers("/odom"), 1U);
   EXPECT_EQ(subscribers("/left"), 0U);
 }
 
 TEST_F(ImageTopicsTest, PicturesOfAnotherTimeAreLeftOut) {
-  const auto link = link_to(config(), robot(), {}, {}, true);
+  const auto link = link_to(image_config(), robot_with_cameras(), {}, {}, true);
   EXPECT_TRUE(seen_by(*link, 1.5).empty());
   EXPECT_TRUE(seen_by(*link, -1.0).empty());
 }
 
 TEST_F(ImageTopicsTest, PicturesThatAreNotTheRobotFilesAreAFault) {
-  const auto link = link_to(config(), robot(), {}, {}, true);
+  const auto link = link_to(image_config(), robot_with_cameras(), {}, {}, true);
   try {
     (void)seen_by(*link, 0.05, 4);
     ADD_FAILURE();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("/left: a picture of 16 x 4 pixels, and its camera in the robot's file has"));
   }
-  Config third = config();
+  Config third = image_config();
   third.images[0].camera = 2;
-  EXPECT_THROW((void)link_to(third, robot(), {}, {}, true), std::invalid_argument);
+  EXPECT_THROW((void)link_to(third, robot_with_cameras(), {}, {}, true), std::invalid_argument);
 }
 
 }  // namespace
