@@ -46,14 +46,6 @@ std::optional<Pose2> pose_of(const ros2::ReadPose& pose) {
   return Pose2{pose.x_m, pose.y_m, *heading};
 }
 
-void check_size(const StoredPicture& picture, const CameraModel& camera) {
-  try {
-    pictures::check_size(picture.width_px, picture.height_px, camera);
-  } catch (const std::runtime_error& error) {
-    throw ros2::MessageError(error.what());
-  }
-}
-
 class LogReader {
  public:
   // cameras: whose pictures are wanted; null: none are.
@@ -148,12 +140,8 @@ void LogReader::collect_pictures() {
     for (const Timed<StoredPicture>& image : bag_.images[images.topic])
       guarded(image.offset, [&] {
         check_size(image.message, camera);
-        RecordedPicture picture{image.at.stamp_s, 0, [store = store_, stored = image.message, number = images.camera] {
-                                  CameraImage read = store->read(stored);
-                                  read.camera = number;
-                                  return read;
-                                }};
-        waiting_.emplace_back(image.at, std::move(picture));
+        waiting_.emplace_back(image.at,
+                              RecordedPicture{image.at.stamp_s, 0, reader_of(store_, image.message, images.camera)});
       });
   }
   std::ranges::stable_sort(waiting_, [](const auto& a, const auto& b) { return b.first < a.first; });

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugins/common/pictures/grey_picture.hpp"
@@ -64,6 +65,23 @@ CameraImage PictureStore::read(const StoredPicture& picture) const {
   image.height_px = picture.height_px;
   image.grey = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
   return image;
+}
+
+void check_size(const StoredPicture& picture, const CameraModel& camera) {
+  try {
+    pictures::check_size(picture.width_px, picture.height_px, camera);
+  } catch (const std::runtime_error& error) {
+    throw MessageError(error.what());
+  }
+}
+
+std::function<CameraImage()> reader_of(std::shared_ptr<const PictureStore> store, const StoredPicture& picture,
+                                       int camera) {
+  return [store = std::move(store), picture, camera] {
+    CameraImage read = store->read(picture);
+    read.camera = camera;
+    return read;
+  };
 }
 
 }  // namespace cairn::mcap_log

@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <span>
 
 #include "framework/contracts/camera_image.hpp"
+#include "framework/contracts/robot_model.hpp"
 #include "maps/exchange/recordings/ros2_read.hpp"
 
 namespace cairn::mcap_log {
@@ -36,5 +39,11 @@ class PictureStore {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::int64_t end_ = 0;
 };
+
+// Throws MessageError when the robot's file gives the camera another size.
+void check_size(const StoredPicture& picture, const CameraModel& camera);
+// Reads it when it is played, as one of the camera of that number.
+[[nodiscard]] std::function<CameraImage()> reader_of(std::shared_ptr<const PictureStore> store,
+                                                     const StoredPicture& picture, int camera);
 
 }  // namespace cairn::mcap_log

@@ -127,6 +127,37 @@ TEST_F(ImageTopicsTest, PicturesOfAnotherTimeAreLeftOut) {
   EXPECT_TRUE(seen_by(*link, -1.0).empty());
 }
 
+TEST_F(ImageTopicsTest, PicturesThatAreAheadOfTheOdometryWaitForIt) {
+  const auto link = link_to(image_config(), robot_with_cameras(), {}, {}, true);
+  EXPECT_GE(seen_by(*link, -0.05).size(), 2U) << "none is younger than the observation that it comes with";
+}
+
+TEST_F(ImageTopicsTest, ADamagedPictureIsLeftOutAndManyInSequenceAreAFault) {
+  const auto link = link_to(image_config(), robot_with_cameras(), {}, {}, true);
+  const std::string whole = jpeg_;
+  ASSERT_FALSE(seen_by(*link).empty());
+  jpeg_.resize(jpeg_.size() / 2);
+  std::vector<Observation> seen;
+  for (int i = 0; i < 3; ++i) {
+    stamp_s_ += 0.02;
+    say(stamp_s_, stamp_s_);
+    EXPECT_TRUE(link->receive(seen));
+  }
+  jpeg_ = whole;
+  EXPECT_GE(seen_by(*link).size(), 2U);
+  jpeg_.resize(jpeg_.size() / 2);
+  try {
+    for (int i = 0; i < 50; ++i) {
+      stamp_s_ += 0.02;
+      say(stamp_s_, stamp_s_);
+      (void)link->receive(seen);
+    }
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/right: the JPEG cannot be read"));
+  }
+}
+
 TEST_F(ImageTopicsTest, PicturesThatAreNotTheRobotFilesAreAFault) {
   const auto link = link_to(image_config(), robot_with_cameras(), {}, {}, true);
   try {
