@@ -184,7 +184,7 @@ KeptSubmaps Perception::submaps() {
 const OccupancyGrid& Perception::redraw(std::shared_ptr<Mapper> map) {
   modules_.mapper.replace(std::move(map));
   past_.correct(corrected_);
-  tracker_.correct_path(corrected_);
+  add_events(tracker_.correct_path(corrected_), corrected_landmarks_);
   for (std::size_t i = 0; i < past_.size() && !budget_.cancelled(); ++i) {
     const Observation seen = past_.observation(i);
     const PoseEstimate pose{corrected_[i]};

@@ -72,6 +72,8 @@ class Perception {
   // Draws the past at its corrected poses into a map that holds none of it, which takes the place of the map so far.
   // Its grid. The detector gets all of it the next time.
   const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
+  // What that has done to the landmarks that move with the robot's path; once.
+  [[nodiscard]] std::vector<Event> take_corrected_landmarks() { return std::exchange(corrected_landmarks_, {}); }
   // What the localizer knows of submaps; none from one that has none.
   [[nodiscard]] KeptSubmaps submaps();
   [[nodiscard]] const Past& past() const { return past_; }
@@ -123,6 +125,7 @@ class Perception {
   PoseHistory* history_ = nullptr;  // the localizer's
   Past past_;
   std::vector<Pose2> corrected_;  // of the past, by the revision below
+  std::vector<Event> corrected_landmarks_;
   std::uint64_t revision_ = 0;
   std::size_t drawn_ = 0;  // size of the past when the map was last drawn anew
   bool is_redrawn_ = false;

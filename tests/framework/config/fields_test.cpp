@@ -52,6 +52,7 @@ struct Example {
   bool loud = false;
   std::string name = "none";
   Gait gait = Gait::trot;
+  std::vector<Gait> gaits{Gait::walk};
   std::filesystem::path file;
   Point at_m{1.0, 2.0};
   std::vector<Point> corners_m;
@@ -71,6 +72,7 @@ struct Example {
     fields.flag("loud", &Example::loud, "whether it is loud");
     fields.text("name", &Example::name, "what it is called");
     fields.choice("gait", &Example::gait, {{"walk", Gait::walk}, {"trot", Gait::trot}}, "how it goes");
+    fields.choices("gaits", &Example::gaits, {{"walk", Gait::walk}, {"trot", Gait::trot}}, "how it may go");
     fields.file("file", &Example::file, "where it is");
     fields.point("at_m", &Example::at_m, "m", "where it stands");
     fields.points("corners_m", &Example::corners_m, "m", "its corners");
@@ -98,6 +100,15 @@ TEST(Fields, NothingGivenLeavesTheDefaults) {
   EXPECT_FALSE(example.limit_m);
   EXPECT_FALSE(example.extra);
   EXPECT_EQ(example.gait, Gait::trot);
+}
+
+TEST(Fields, AListOfChoicesHoldsEachOnceAndAtLeastOne) {
+  EXPECT_EQ(load("").gaits, std::vector{Gait::walk});
+  EXPECT_EQ(load("gaits: [trot, walk, trot]").gaits, (std::vector{Gait::trot, Gait::walk}));
+  EXPECT_EQ(load_error("gaits: [walk, trott]"),
+            "1:15: gaits must be one of walk, trot, found \"trott\" (did you mean \"trot\"?)");
+  EXPECT_EQ(load_error("gaits: []"), "1:8: gaits must name at least one of walk, trot");
+  EXPECT_EQ(schema_of<Example>().fields[9].choices, (std::vector<std::string>{"walk", "trot"}));
 }
 
 TEST(Fields, LoadEveryType) {

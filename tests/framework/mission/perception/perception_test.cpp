@@ -255,6 +255,32 @@ TEST_F(PerceptionTest, AMapOfAPastThatWasCorrectedIsDrawnAnewAtTheCorrectedPoses
   EXPECT_NEAR(perception().tracker().driven_path().front().x_m, 1.0 + 0.6, 1e-12);
 }
 
+TEST_F(PerceptionTest, TagsThatMoveWithACorrectedPastAreReportedOnce) {
+  mission_.config.markers.emplace();
+  const auto correcting = std::make_shared<CorrectingLocalizer>();
+  built_.localizer = correcting;
+  built_.marker_detector = std::make_shared<TagSevenDetector>();
+  (void)perception().begin();
+  for (int i = 0; i < 20; ++i) {
+    Observation seen;
+    seen.stamp_s = 0.1 * i;
+    seen.T_odom_robot = TagSevenDetector::odometry_at(seen.stamp_s);
+    seen.images.resize(1);
+    seen.images[0].stamp_s = seen.stamp_s;
+    perception().see_markers(seen);
+    perception().map(seen, perception().localize(seen));
+    (void)perception().recognise({}, seen.stamp_s, seen.markers);
+  }
+  ASSERT_EQ(perception().tracker().graph().landmarks().size(), 1U);
+  correcting->correct(0.5);
+  ASSERT_TRUE(perception().finish());
+  (void)perception().redraw(std::make_shared<CountingMapper>());
+  const std::vector<Event> events = perception().take_corrected_landmarks();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_NEAR(std::get<LandmarkChanged>(events[0]).landmark.T_map_landmark.x_m, 4.0 + 1.0 + 0.52, 0.02);
+  EXPECT_TRUE(perception().take_corrected_landmarks().empty());
+}
+
 TEST_F(PerceptionTest, TheLastCorrectionsAreAskedForUntilNothingIsLeft) {
   const auto correcting = std::make_shared<CorrectingLocalizer>();
   built_.localizer = correcting;
