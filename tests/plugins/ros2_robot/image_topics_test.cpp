@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "framework/live/steady_time.hpp"
@@ -76,6 +77,7 @@ class ImageTopicsTest : public testing::Test {
         for (const CameraImage& image : observation.images) {
           EXPECT_LE(image.stamp_s, observation.stamp_s);
           EXPECT_GE(image.stamp_s, observation.stamp_s - 0.5);
+          EXPECT_NEAR(std::remainder(image.stamp_s + age_s, 0.02), 0.0, 1e-6) << "by the odometry's clock";
           images.push_back(image);
         }
       const auto is_of = [](int camera) {
