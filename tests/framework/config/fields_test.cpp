@@ -142,10 +142,11 @@ TEST(Fields, LoadEveryType) {
 }
 
 TEST(Fields, UnknownKeysNameTheNearest) {
-  EXPECT_EQ(load_error("cells: 3\nspeed_mp: 1\n"),
-            "2:1: unknown key \"speed_mp\" in example (did you mean \"speed_mps\"?); known: speed_mps, limit_m, "
-            "turn_deg, cells, seed, small, loud, name, gait, file, at_m, corners_m, weights, inner, extra, many, "
-            "planner, rest");
+  EXPECT_EQ(
+      load_error("cells: 3\nspeed_mp: 1\n"),
+      "2:1: unknown key \"speed_mp\" in example (did you mean \"speed_mps\"?); known: speed_mps, limit_m, "
+      "turn_deg, cells, seed, small, loud, name, gait, gaits, file, at_m, corners_m, weights, inner, extra, many, "
+      "planner, rest");
   EXPECT_EQ(load_error("inner: {width_m: 1, size: 1}"), "1:21: unknown key \"size\" in inner; known: width_m, count");
 }
 
@@ -279,17 +280,18 @@ TEST(Fields, MistakesThatDoNotDependOnEachOtherAreReportedTogether) {
   const std::vector<std::string> errors = load_errors(
       "cells: 0\nloudd: true\nspeedd_mps: 1\nmany: [{width_m: 3}, {width_m: 1}, {cont: 1}]\n"
       "inner: {count: 0}\nat_m: [1, 2]\n");
-  EXPECT_EQ(errors, (std::vector<std::string>{
-                        "/c/e.yaml:1:8: cells must be a whole number from 1 to 100, found \"0\"",
-                        "/c/e.yaml:2:1: unknown key \"loudd\" in example (did you mean \"loud\"?); known: speed_mps, "
-                        "limit_m, turn_deg, cells, seed, small, loud, name, gait, file, at_m, corners_m, weights, "
-                        "inner, extra, many, planner, rest",
-                        "/c/e.yaml:3:1: unknown key \"speedd_mps\" in example (did you mean \"speed_mps\"?)",
-                        "/c/e.yaml:4:18: width_m must be a number from 0 to 2 m, found \"3\"",
-                        "/c/e.yaml:4:37: unknown key \"cont\" in many (did you mean \"count\"?); known: width_m, count",
-                        "/c/e.yaml:4:36: many lacks the key \"width_m\": how wide",
-                        "/c/e.yaml:5:16: count must be a whole number from 1 to 10, found \"0\"",
-                        "/c/e.yaml:5:8: inner lacks the key \"width_m\": how wide"}));
+  EXPECT_EQ(errors,
+            (std::vector<std::string>{
+                "/c/e.yaml:1:8: cells must be a whole number from 1 to 100, found \"0\"",
+                "/c/e.yaml:2:1: unknown key \"loudd\" in example (did you mean \"loud\"?); known: speed_mps, "
+                "limit_m, turn_deg, cells, seed, small, loud, name, gait, gaits, file, at_m, corners_m, weights, "
+                "inner, extra, many, planner, rest",
+                "/c/e.yaml:3:1: unknown key \"speedd_mps\" in example (did you mean \"speed_mps\"?)",
+                "/c/e.yaml:4:18: width_m must be a number from 0 to 2 m, found \"3\"",
+                "/c/e.yaml:4:37: unknown key \"cont\" in many (did you mean \"count\"?); known: width_m, count",
+                "/c/e.yaml:4:36: many lacks the key \"width_m\": how wide",
+                "/c/e.yaml:5:16: count must be a whole number from 1 to 10, found \"0\"",
+                "/c/e.yaml:5:8: inner lacks the key \"width_m\": how wide"}));
 }
 
 TEST(Fields, AfterAHundredMistakesNoMoreAreLookedFor) {
