@@ -126,13 +126,13 @@ TEST(MarkerMission, TagsThatCannotBeAreFoundByTheCheckWithTheirPlaces) {
     return check.out + check.err;
   };
   const std::string families = found_with("size_m: 0.16", "families: [36h12]");
-  EXPECT_THAT(families, HasSubstr("tagged_home.yaml:15:46: families must be one of 36h11, 25h9, standard41h12"));
+  EXPECT_THAT(families, HasSubstr("tagged_home.yaml:15:45: families must be one of 36h11, 25h9, standard41h12"));
   EXPECT_THAT(families, Not(HasSubstr("no template"))) << "nearest hall end";
   EXPECT_THAT(found_with("size_m: 0.16", "sizes: [{first: 500, last: 600, size_m: 0.1}]"),
               HasSubstr("tagged_home.yaml:15:13: sizes: 500 to 600: there are no such tags: 36h11 has 0 to 586"));
   EXPECT_THAT(
       found_with("dock: [7]", "dock: [587]"),
-      HasSubstr("tagged_home.yaml:16:43: categories.dock: there is no tag with the id 587: 36h11 has 0 to 586"));
+      HasSubstr("tagged_home.yaml:16:41: categories.dock: there is no tag with the id 587: 36h11 has 0 to 586"));
   EXPECT_THAT(found_with("goto: tag 7", "goto: tag 9999"), HasSubstr("landmark: \"tag 9999\": there is no such tag"));
 }
 
