@@ -27,8 +27,7 @@ TEST(MarkerConfig, WhatCannotBeACategoryHasItsPlace) {
   EXPECT_EQ(error_of("[3]"), "m.yaml:1:13: categories must be a map of lists of ids, such as {door: [3, 4]}");
   EXPECT_EQ(error_of("{\"\": [3]}"), "m.yaml:1:14: categories: a category needs a name, such as {door: [3, 4]}");
   EXPECT_EQ(error_of("{\" \": [3]}"), "m.yaml:1:14: categories: a category needs a name, such as {door: [3, 4]}");
-  EXPECT_EQ(error_of("{door: [3], dock: [3]}"),
-            "m.yaml:1:32: categories.dock: the id 3 is of category door already");
+  EXPECT_EQ(error_of("{door: [3], dock: [3]}"), "m.yaml:1:32: categories.dock: the id 3 is of category door already");
   EXPECT_EQ(error_of("{dock: [1, 2115]}"),
             "m.yaml:1:24: categories.dock: there is no tag with the id 2115: 36h11 has 0 to 586, 25h9 has 0 to 34, "
             "standard41h12 has 0 to 2114");
