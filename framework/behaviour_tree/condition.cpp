@@ -8,6 +8,8 @@
 
 #include "framework/behaviour_tree/parameters.hpp"
 #include "framework/config/named_category.hpp"
+#include "maps/base/text.hpp"
+#include "maps/landmarks/marker_id.hpp"
 
 namespace cairn {
 namespace {
@@ -62,8 +64,11 @@ std::vector<ConfigError> unknown_categories(const std::vector<TreeNode>& steps,
     const ConfigValue* const landmark =
         settings.kind == ConfigValue::Kind::scalar ? &settings : settings.find("landmark");
     try {
-      if (is_condition(node.kind) && landmark != nullptr)
+      if (is_condition(node.kind) && landmark != nullptr) {
         check_named_categories(*landmark, node.choice.name, categories);
+        if (const std::string fault = marker_name_fault(landmark->scalar); !fault.empty())
+          throw ConfigError(landmark->place, node.choice.name + ": " + in_quotes(landmark->scalar) + ": " + fault);
+      }
     } catch (const ConfigError& error) {
       errors.push_back(with_place_of_use(error, settings, node.place));
     }

@@ -12,7 +12,7 @@
 namespace cairn {
 
 // What is wrong with conditions that name `nearest CATEGORY`, when the mission can find landmarks of these categories
-// only. No categories: not known, so nothing is wrong.
+// only (no categories: not known, so nothing is wrong), and with those that name a tag that no family has.
 [[nodiscard]] std::vector<ConfigError> unknown_categories(const std::vector<TreeNode>& steps,
                                                           const std::vector<std::string>& categories);
 

@@ -199,6 +199,17 @@ std::size_t to_choice(const ConfigValue& value, const std::string& key, const st
   return static_cast<std::size_t>(at - choices.begin());
 }
 
+std::vector<std::size_t> to_choices(const ConfigValue& value, const std::string& key,
+                                    const std::vector<std::string>& choices) {
+  const auto each =
+      each_by([&](const ConfigValue& item, const std::string& name) { return to_choice(item, name, choices); });
+  std::vector<std::size_t> once;
+  for (const std::size_t choice : each(value, key))
+    if (std::ranges::find(once, choice) == once.end()) once.push_back(choice);
+  if (once.empty()) throw ConfigError(value.place, key + " must name at least one of " + joined(choices));
+  return once;
+}
+
 Point to_point(const ConfigValue& value, const std::string& key, const Range& range, const std::string& unit) {
   const std::string allowed = "a point [x, y]";
   if (value.kind != ConfigValue::Kind::list) fail(value, key, allowed);

@@ -66,6 +66,9 @@ namespace config_detail {
 [[nodiscard]] std::string to_value_name(const ConfigValue& value, const std::string& key);
 [[nodiscard]] std::size_t to_choice(const ConfigValue& value, const std::string& key,
                                     const std::vector<std::string>& choices);
+// Each once, at least one.
+[[nodiscard]] std::vector<std::size_t> to_choices(const ConfigValue& value, const std::string& key,
+                                                  const std::vector<std::string>& choices);
 [[nodiscard]] Point to_point(const ConfigValue& value, const std::string& key, const Range& range = {},
                              const std::string& unit = "");
 [[nodiscard]] std::vector<double> to_numbers(const ConfigValue& value, const std::string& key, const Range& range);
@@ -165,6 +168,22 @@ class Fields {
     FieldSpec& f = add(std::move(key), "choice", std::move(meaning), std::move(default_text), member,
                        [options, names](const ConfigValue& v, const std::string& name) {
                          return options[config_detail::to_choice(v, name, names)].second;
+                       });
+    f.choices = names;
+    return f;
+  }
+  // A list of them, at least one.
+  template <class Enum>
+  FieldSpec& choices(std::string key, std::vector<Enum> Config::*member,
+                     std::vector<std::pair<std::string, Enum>> options, std::string meaning) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : options) names.push_back(name);
+    FieldSpec& f = add(std::move(key), "list of choices", std::move(meaning), "", member,
+                       [options, names](const ConfigValue& v, const std::string& name) {
+                         std::vector<Enum> out;
+                         for (const std::size_t choice : config_detail::to_choices(v, name, names))
+                           out.push_back(options[choice].second);
+                         return out;
                        });
     f.choices = names;
     return f;

@@ -5,23 +5,6 @@
 #include "framework/files/world_moving.hpp"
 
 namespace cairn::world_config {
-namespace {
-
-// How many markers a family has.
-int markers_of(MarkerFamily family) {
-  switch (family) {
-    case MarkerFamily::tag36h11:
-      return 587;
-    case MarkerFamily::tag25h9:
-      return 35;
-    case MarkerFamily::tagStandard41h12:
-      return 2115;
-  }
-  return 0;
-}
-
-}  // namespace
-
 void TagConfig::describe(Fields<TagConfig>& fields) {
   fields.integer("id", &TagConfig::id, {0, 2114}, "its number in its family").required = true;
   fields.choice("family", &TagConfig::family,
@@ -41,7 +24,7 @@ void TagConfig::describe(Fields<TagConfig>& fields) {
 
 WorldTag tag_of(const World& world, const TagConfig& config, const ConfigValue& value) {
   check_inside(world, config.at_m, value.find("at_m")->place, "at_m");
-  if (const int markers = markers_of(config.family); config.id >= markers)
+  if (const int markers = count_of(config.family); config.id >= markers)
     throw ConfigError(value.find("id")->place, "family " + std::string(name_of(config.family)) + " has the ids 0 to " +
                                                    std::to_string(markers - 1) + ", found " +
                                                    std::to_string(config.id));

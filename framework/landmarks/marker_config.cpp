@@ -1,6 +1,13 @@
 #include "framework/landmarks/marker_config.hpp"
 
 namespace cairn {
+namespace {
+
+int number_in(const ConfigValue& item, const std::string& what) {
+  return static_cast<int>(config_detail::to_integer(item, what, {0.0, 1e6}));
+}
+
+}  // namespace
 
 PluginChoice default_marker_detector() {
   PluginChoice choice;
@@ -17,21 +24,34 @@ void MarkersConfig::describe(Fields<MarkersConfig>& fields) {
                  "sightings from places some way apart until a marker counts as a landmark");
 }
 
-std::map<int, std::string> marker_categories_of(const MarkersConfig& config) {
-  std::map<int, std::string> categories;
-  if (config.categories.kind == ConfigValue::Kind::null) return categories;
-  if (config.categories.kind != ConfigValue::Kind::map)
-    throw ConfigError(config.categories.place, "categories must be a map of lists of ids, such as {door: [3, 4]}");
-  for (const ConfigValue::Entry& entry : config.categories.entries) {
+std::map<int, std::string> marker_categories_of(const ConfigValue& categories) {
+  std::map<int, std::string> names;
+  if (categories.kind == ConfigValue::Kind::null) return names;
+  if (categories.kind != ConfigValue::Kind::map)
+    throw ConfigError(categories.place, "categories must be a map of lists of ids, such as {door: [3, 4]}");
+  for (const ConfigValue::Entry& entry : categories.entries) {
+    if (entry.key.find_first_not_of(' ') == std::string::npos)
+      throw ConfigError(entry.key_place, "categories: a category needs a name, such as {door: [3, 4]}");
     const std::string what = "categories." + entry.key;
     for (const ConfigValue& item : config_detail::to_list(entry.value, what)) {
-      const auto number = static_cast<int>(config_detail::to_integer(item, what, {0.0, 1e6}));
-      if (!categories.emplace(number, entry.key).second)
+      const int number = number_in(item, what);
+      if (!names.emplace(number, entry.key).second)
         throw ConfigError(item.place, what + ": the id " + std::to_string(number) + " is of category " +
-                                          categories.at(number) + " already");
+                                          names.at(number) + " already");
     }
   }
-  return categories;
+  check_marker_numbers(categories, kMarkerFamilies);
+  return names;
+}
+
+void check_marker_numbers(const ConfigValue& categories, std::span<const MarkerFamily> families) {
+  for (const ConfigValue::Entry& entry : categories.entries)
+    for (const ConfigValue& item : entry.value.items) {
+      const std::string what = "categories." + entry.key;
+      const int number = number_in(item, what);
+      if (const std::string fault = number_fault(number, families); !fault.empty())
+        throw ConfigError(item.place, what + ": there is no tag with the id " + std::to_string(number) + ": " + fault);
+    }
 }
 
 }  // namespace cairn

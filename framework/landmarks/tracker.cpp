@@ -68,7 +68,7 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
   name_marker_categories();
 }
 
-void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
+std::vector<LandmarkTracker::Change> LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
   driven_ = DrivenPath(driven_.max_poses());
   for (const Pose2& pose : T_map_robot) driven_.record(pose);
   // Poses before these are of an earlier run.
@@ -76,6 +76,7 @@ void LandmarkTracker::correct_path(const std::vector<Pose2>& T_map_robot) {
   markers_.correct(T_map_robot);
   std::vector<Change> changes;
   for (const MarkerId& marker : markers_.markers()) place_marker(marker, changes);
+  return changes;
 }
 
 void LandmarkTracker::expect_markers(std::map<int, std::string> categories, int confirm_sightings) {

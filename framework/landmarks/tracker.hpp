@@ -52,8 +52,8 @@ class LandmarkTracker {
 
   // Remembers where the robot has been, and how well it knew that. At every tick.
   void record_pose(const PoseEstimate& pose);
-  // Where the robot has been, by what is known now.
-  void correct_path(const std::vector<Pose2>& T_map_robot);
+  // Where the robot has been, by what is known now. Markers move with it.
+  [[nodiscard]] std::vector<Change> correct_path(const std::vector<Pose2>& T_map_robot);
   // Brings approach poses and routes up to date (LandmarkConnector).
   void connect(const WorldView& world, const LandmarkConnector::Plan& plan, std::uint64_t seed) {
     connector_.connect(graph_, driven_, world, plan, seed);

@@ -16,6 +16,7 @@ Observation assembled(std::vector<Observation> observations) {
   Observation now = std::move(observations.back());
   observations.pop_back();
   std::vector<RangeReading> ranges;
+  std::vector<CameraImage> images;
   for (const Observation& then : observations) {
     now.bumped = now.bumped || then.bumped;
     if (now.stamp_s - then.stamp_s > kMaxReadingAge_s) continue;
@@ -24,7 +25,9 @@ Observation assembled(std::vector<Observation> observations) {
       reading.T_robot_sensor = T_now_then * reading.T_robot_sensor;
       ranges.push_back(reading);
     }
+    images.insert(images.end(), then.images.begin(), then.images.end());
   }
+  now.images.insert(now.images.begin(), images.begin(), images.end());
   now.ranges.insert(now.ranges.begin(), ranges.begin(), ranges.end());
   return now;
 }

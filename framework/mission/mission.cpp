@@ -44,11 +44,21 @@ void check_sizes(const std::vector<LandmarkShape>& shapes, const World& world, c
   }
 }
 
+// What is wrong beside them hides no category.
+void take_marker_categories(const ConfigValue& root, Mission& mission, ConfigErrors& errors) {
+  const ConfigValue* const markers = root.find("markers");
+  const ConfigValue* const categories = markers == nullptr ? nullptr : markers->find("categories");
+  if (categories == nullptr) return;
+  mission.has_all_categories = false;
+  errors.attempt([&] {
+    mission.marker_categories = marker_categories_of(*categories);
+    mission.has_all_categories = true;
+  });
+}
+
 // A camera is what markers are seen by.
-void take_markers(const ConfigValue& root, Mission& mission) {
-  if (!mission.config.markers) return;
-  mission.marker_categories = marker_categories_of(*mission.config.markers);
-  if (!mission.config.robot.empty() && mission.robot.cameras.empty())
+void check_cameras(const ConfigValue& root, const Mission& mission) {
+  if (mission.config.markers && mission.robot.cameras.empty())
     throw ConfigError(root.find("markers")->place, "markers: the robot file has no `cameras` to see them by");
 }
 
@@ -102,6 +112,8 @@ bool read_files(const ConfigValue& root, Mission& mission, ConfigErrors& errors)
     if (!config.detector.name.empty()) use_detector(mission, config.detector);
     has_shapes = true;
   });
+  if (!has_shapes || (config.detector.name.empty() && root.find("detector") != nullptr))
+    mission.has_all_categories = false;
   const ConfigValue* const world = root.find("world");
   if (!config.world.empty())
     errors.attempt([&] {
@@ -174,6 +186,7 @@ std::string autosave_file_of(const MissionConfig& config) {
 
 std::vector<std::string> categories_of(const Mission& mission) {
   std::vector<std::string> categories;
+  if (!mission.has_all_categories) return categories;
   categories.reserve(mission.shapes.size() + mission.marker_categories.size());
   for (const LandmarkShape& shape : mission.shapes) categories.push_back(shape.category);
   for (const auto& [number, category] : mission.marker_categories)
@@ -205,8 +218,9 @@ ReadMission read_mission(const std::filesystem::path& file, const std::vector<st
   errors.attempt([&] { check_recordings(root, mission.config); });
   if (seed) mission.config.seed = *seed;
   mission.start_place = start_place_of(root);
+  take_marker_categories(root, mission, errors);
   read.has_files = read_files(root, mission, errors);
-  if (read.has_files) errors.attempt([&] { take_markers(root, mission); });
+  if (read.has_files) errors.attempt([&] { check_cameras(root, mission); });
   read.errors = errors.all();
   MissionTree tree = read_mission_tree(mission.config.steps, file);
   mission.steps = std::move(tree.steps);

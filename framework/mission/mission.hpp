@@ -68,10 +68,11 @@ struct Mission {
   SourcePlace start_place;        // of `start`, or of the file that lacks it
   std::vector<LandmarkShape> shapes;
   std::map<int, std::string> marker_categories;  // by the numbers of markers
+  bool has_all_categories = true;                // of shapes and markers; false: a mistake in a file hides some
   std::vector<TreeNode> steps;
 };
 
-// Of landmarks that the mission can find: of its shapes and its markers.
+// Of landmarks that the mission can find: of its shapes and its markers. Empty: not known.
 [[nodiscard]] std::vector<std::string> categories_of(const Mission& mission);
 
 // Name of the autosaved map in the output folder.

@@ -1,6 +1,7 @@
 #include "framework/mission/modules.hpp"
 
 #include "framework/behaviour_tree/parameters.hpp"
+#include "framework/contracts/optional/marker_families.hpp"
 #include "framework/mission/named_values.hpp"
 #include "framework/mission/resume.hpp"
 #include "framework/mission/start_wait.hpp"
@@ -13,10 +14,23 @@
 namespace cairn {
 namespace {
 
+// place: of what is wrong with several settings together, for which a module knows none.
+template <class Interface>
+std::shared_ptr<Interface> build_at(const SourcePlace& place, const ModuleLibrary& library, const PluginChoice& choice,
+                                    const ContextOf<Interface>& context) {
+  try {
+    return fenced_making(choice.name, [&] { return library.make<Interface>(choice, context); });
+  } catch (const ConfigError& error) {
+    throw each_changed(error, [&](const ConfigError& one) -> ConfigError {
+      return one.place().file.empty() ? ConfigError(place, one.sentence()) : one;
+    });
+  }
+}
+
 template <class Interface>
 std::shared_ptr<Interface> build(const ModuleLibrary& library, const PluginChoice& choice,
                                  const ContextOf<Interface>& context) {
-  return fenced_making(choice.name, [&] { return library.make<Interface>(choice, context); });
+  return build_at<Interface>(choice.config.place, library, choice, context);
 }
 
 // What factories of all kinds get.
@@ -35,8 +49,13 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
 
 std::shared_ptr<MarkerDetector> build_marker_detector(const Mission& mission, const ModuleLibrary& library) {
   if (!mission.config.markers) return nullptr;
-  return build<MarkerDetector>(library, mission.config.markers->detector,
-                               context_for(mission, library, PluginKind::marker_detector));
+  const MarkersConfig& config = *mission.config.markers;
+  auto detector =
+      build<MarkerDetector>(library, config.detector, context_for(mission, library, PluginKind::marker_detector));
+  if (const auto* const known = dynamic_cast<const MarkerFamilies*>(detector.get()))
+    check_marker_numbers(config.categories,
+                         fenced("marker detector", config.detector.name, [&] { return known->families(); }));
+  return detector;
 }
 
 std::shared_ptr<Mapper> build_mapper(const Mission& mission, const ModuleLibrary& library,
@@ -90,13 +109,9 @@ std::shared_ptr<Behaviour> build_behaviour(const Mission& mission, const ModuleL
   context.categories = categories_of(mission);
   if (library.find_any(node.choice.name) == nullptr) fail_unknown(library, node);
   try {
-    return build<Behaviour>(library, node.choice, context);
+    return build_at<Behaviour>(node.place, library, node.choice, context);
   } catch (const ConfigError& error) {
-    throw each_changed(error, [&](const ConfigError& one) -> ConfigError {
-      // A module knows no place for a setting that is not there.
-      if (one.place().file.empty()) return {node.place, one.sentence()};
-      return with_place_of_use(one, node.choice.config, node.place);
-    });
+    throw with_place_of_use(error, node.choice.config, node.place);
   }
 }
 

@@ -43,4 +43,22 @@ std::optional<MarkerName> marker_name_in(std::string_view text) {
   return number ? std::optional(MarkerName{family, *number}) : std::nullopt;
 }
 
+std::string number_fault(int number, std::span<const MarkerFamily> families) {
+  std::string numbers;
+  for (const MarkerFamily family : families) {
+    if (number < count_of(family)) return {};
+    if (!numbers.empty()) numbers += ", ";
+    numbers.append(name_of(family)).append(" has 0 to ").append(std::to_string(count_of(family) - 1));
+  }
+  return numbers;
+}
+
+std::string marker_name_fault(std::string_view text) {
+  const std::optional<MarkerName> name = marker_name_in(text);
+  if (!name) return {};
+  const std::string numbers = name->family ? number_fault(name->number, std::span(&*name->family, 1))
+                                           : number_fault(name->number, kMarkerFamilies);
+  return numbers.empty() ? numbers : "there is no such tag: " + numbers;
+}
+
 }  // namespace cairn

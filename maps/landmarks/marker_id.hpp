@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,19 @@ inline constexpr MarkerFamily kMarkerFamilies[] = {MarkerFamily::tag36h11, Marke
   return "?";
 }
 
+// How many markers a family has: their numbers are 0 to one less.
+[[nodiscard]] constexpr int count_of(MarkerFamily family) {
+  switch (family) {
+    case MarkerFamily::tag36h11:
+      return 587;
+    case MarkerFamily::tag25h9:
+      return 35;
+    case MarkerFamily::tagStandard41h12:
+      return 2115;
+  }
+  return 0;
+}
+
 // Numbers are unique within a family only.
 struct MarkerId {
   MarkerFamily family = MarkerFamily::tag36h11;
@@ -42,5 +56,10 @@ struct MarkerName {
   int number = 0;
 };
 [[nodiscard]] std::optional<MarkerName> marker_name_in(std::string_view text);
+
+// Why none of the families has a marker of that number: "36h11 has 0 to 586, 25h9 has 0 to 34". Empty: one has.
+[[nodiscard]] std::string number_fault(int number, std::span<const MarkerFamily> families);
+// Why a text that names a marker names one that cannot be; empty: it can, or the text names no marker.
+[[nodiscard]] std::string marker_name_fault(std::string_view text);
 
 }  // namespace cairn

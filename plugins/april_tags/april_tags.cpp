@@ -17,7 +17,9 @@ bool is_of(const CameraImage& image, const std::vector<CameraModel>& cameras) {
 }  // namespace
 
 AprilTags::AprilTags(const Config& config, std::vector<CameraModel> cameras)
-    : config_(config), cameras_(std::move(cameras)), finder_(config) {}
+    : config_(config), cameras_(std::move(cameras)), finder_(config) {
+  check_sizes(config);
+}
 
 std::vector<MarkerSighting> AprilTags::detect(std::span<const CameraImage> images, const Budget& budget) {
   std::vector<MarkerSighting> sightings;

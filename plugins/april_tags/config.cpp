@@ -1,24 +1,29 @@
 #include "plugins/april_tags/config.hpp"
 
-#include "maps/base/text.hpp"
+#include <span>
+#include <string>
+#include <utility>
 
 namespace cairn::april_tags {
+namespace {
+
+std::vector<std::pair<std::string, MarkerFamily>> named_families() {
+  std::vector<std::pair<std::string, MarkerFamily>> named;
+  for (const MarkerFamily family : kMarkerFamilies) named.emplace_back(name_of(family), family);
+  return named;
+}
+
+}  // namespace
 
 void SizeConfig::describe(Fields<SizeConfig>& fields) {
-  fields.choice("family", &SizeConfig::family,
-                {{"36h11", MarkerFamily::tag36h11},
-                 {"25h9", MarkerFamily::tag25h9},
-                 {"standard41h12", MarkerFamily::tagStandard41h12}},
-                "which AprilTags they are of");
+  fields.choice("family", &SizeConfig::family, named_families(), "which AprilTags they are of");
   fields.integer("first", &SizeConfig::first, {0, 2114}, "the lowest of their ids").required = true;
   fields.integer("last", &SizeConfig::last, {0, 2114}, "the highest of their ids").required = true;
   fields.number("size_m", &SizeConfig::size_m, {0.005, 5.0}, "m", "how large they are printed").required = true;
 }
 
 void Config::describe(Fields<Config>& fields) {
-  fields.texts("families", &Config::families,
-               "which AprilTags are looked for: 36h11 (when left out), 25h9, "
-               "standard41h12");
+  fields.choices("families", &Config::families, named_families(), "which AprilTags are looked for; left out: 36h11");
   fields.number("size_m", &Config::size_m, {0.005, 5.0}, "m",
                 "how large the tags are printed: side of the square whose corners are detected; of 36h11 and 25h9 the "
                 "black border's outside, of standard41h12 the white border's outside");
@@ -37,24 +42,13 @@ void Config::describe(Fields<Config>& fields) {
                "standard deviation of a tag's direction, at least");
 }
 
-std::vector<MarkerFamily> families_of(const Config& config) {
-  std::vector<MarkerFamily> families;
-  families.reserve(config.families.size());
-  const auto known = [] {
-    std::vector<std::string> names;
-    for (const MarkerFamily family : kMarkerFamilies) names.emplace_back(name_of(family));
-    return names;
-  };
-  for (const std::string& name : config.families) {
-    const auto* const found =
-        std::ranges::find_if(kMarkerFamilies, [&](MarkerFamily family) { return name_of(family) == name; });
-    if (found == std::end(kMarkerFamilies))
-      throw ConfigError({}, "families: unknown family " + in_quotes(name) + did_you_mean(name, known()) +
-                                "; known are: " + joined(known()));
-    if (std::ranges::find(families, *found) == families.end()) families.push_back(*found);
+void check_sizes(const Config& config) {
+  for (const SizeConfig& size : config.sizes) {
+    const std::string tags = "sizes: " + std::to_string(size.first) + " to " + std::to_string(size.last);
+    if (size.last < size.first) throw ConfigError({}, tags + ": last is below first");
+    if (const std::string fault = number_fault(size.last, std::span(&size.family, 1)); !fault.empty())
+      throw ConfigError({}, tags + ": there are no such tags: " + fault);
   }
-  if (families.empty()) throw ConfigError({}, "families must name one at least; known are: " + joined(known()));
-  return families;
 }
 
 double size_of(const Config& config, const MarkerId& marker) {

@@ -1,7 +1,6 @@
 // Settings of the module `april_tags`. Sizes are those of the square whose corners are detected (docs/markers.md).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "framework/config/fields.hpp"
@@ -19,7 +18,7 @@ struct SizeConfig {
 };
 
 struct Config {
-  std::vector<std::string> families{"36h11"};
+  std::vector<MarkerFamily> families{MarkerFamily::tag36h11};
   double size_m = 0.16;
   std::vector<SizeConfig> sizes;
   double decimate = 1.0;
@@ -32,7 +31,7 @@ struct Config {
 };
 
 // Throws ConfigError.
-[[nodiscard]] std::vector<MarkerFamily> families_of(const Config& config);
+void check_sizes(const Config& config);
 [[nodiscard]] double size_of(const Config& config, const MarkerId& marker);
 
 }  // namespace cairn::april_tags

@@ -39,7 +39,7 @@ struct TagFinder::Library {
 TagFinder::TagFinder(const Config& config)
     : min_decision_margin_(config.min_decision_margin), library_(std::make_unique<Library>()) {
   apriltag_detector_t* const detector = library_->detector.get();
-  for (const MarkerFamily family : families_of(config)) {
+  for (const MarkerFamily family : config.families) {
     library_->families.emplace_back(family, tag_codes_of(family));
     apriltag_detector_add_family_bits(detector, library_->families.back().second.get(), kCorrectedBits);
   }

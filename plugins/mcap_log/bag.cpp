@@ -17,7 +17,8 @@ constexpr double kNsPerS = 1e9;
 
 class BagReader {
  public:
-  BagReader(const Config& config, log_common::ScanLog& scans) : config_(config), scans_(scans) {}
+  BagReader(const Config& config, log_common::ScanLog& scans, PictureStore* images)
+      : config_(config), scans_(scans), images_(images) {}
 
   Bag read(const Budget& budget);
 
@@ -26,6 +27,7 @@ class BagReader {
 
   void introduce(const McapChannel& channel);
   [[nodiscard]] Take taker_of(const std::string& topic, std::string_view type);
+  [[nodiscard]] Take image_taker_of(const std::string& topic, std::string_view type);
   template <class Message>
   Take into(std::vector<Timed<Message>>& messages, Message (*decode)(std::string_view));
   [[nodiscard]] Moment moment_of(std::int64_t stamp_ns, const McapMessage& message) const;
@@ -35,6 +37,7 @@ class BagReader {
 
   const Config& config_;
   log_common::ScanLog& scans_;
+  PictureStore* images_;
   Bag bag_;
   std::map<std::uint16_t, Take> takers_;  // by channel
   std::size_t order_ = 0;
@@ -74,7 +77,25 @@ BagReader::Take BagReader::taker_of(const std::string& topic, std::string_view t
         into.push_back({at, message.offset, std::move(transform)});
       }
     };
-  return {};
+  return image_taker_of(topic, type);
+}
+
+BagReader::Take BagReader::image_taker_of(const std::string& topic, std::string_view type) {
+  const bool is_compressed = type == "sensor_msgs/msg/CompressedImage";
+  const bool is_image = is_compressed || type == "sensor_msgs/msg/Image";
+  const bool is_named =
+      config_.images.empty() || std::ranges::find(config_.images, topic, &ImageTopic::topic) != config_.images.end();
+  if (images_ == nullptr || !is_image || !is_named) return {};
+  return [this, is_compressed, &into = bag_.images[topic]](const McapMessage& message) {
+    const auto take = [&](const auto& content) {
+      const Moment at = moment_of(content.header.stamp_ns, message);
+      into.push_back({at, message.offset, images_->add(content)});
+    };
+    if (is_compressed)
+      take(ros2::read_compressed_image(message.data));
+    else
+      take(ros2::read_image(message.data));
+  };
 }
 
 void BagReader::introduce(const McapChannel& channel) {
@@ -113,8 +134,8 @@ Bag BagReader::read(const Budget& budget) {
 
 }  // namespace
 
-Bag read_bag(const Config& config, log_common::ScanLog& scans, const Budget& budget) {
-  return BagReader(config, scans).read(budget);
+Bag read_bag(const Config& config, log_common::ScanLog& scans, const Budget& budget, PictureStore* images) {
+  return BagReader(config, scans, images).read(budget);
 }
 
 }  // namespace cairn::mcap_log

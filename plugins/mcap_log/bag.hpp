@@ -9,6 +9,7 @@
 
 #include "maps/exchange/recordings/ros2_read.hpp"
 #include "plugins/mcap_log/config.hpp"
+#include "plugins/mcap_log/picture_store.hpp"
 
 namespace cairn::mcap_log {
 
@@ -43,11 +44,14 @@ struct Bag {
   Topics<ros2::OdometryMessage> odometry;
   Topics<ros2::ImuMessage> compasses;
   Topics<ros2::TransformMessage> transforms;
+  Topics<StoredPicture> images;              // when they are wanted
   std::map<std::string, std::string> types;  // of all topics that have messages
 };
 
 // Reads what the settings may need. Messages and chunks that cannot be read go to scans as bad ones, a file that ends
-// early as a note. Throws ConfigError when the file is none of MCAP, ReadingEnded when the budget is exhausted.
-[[nodiscard]] Bag read_bag(const Config& config, log_common::ScanLog& scans, const Budget& budget);
+// early as a note. images: where pictures are kept; null: they are not wanted. Throws ConfigError when the file is none
+// of MCAP, ReadingEnded when the budget is exhausted.
+[[nodiscard]] Bag read_bag(const Config& config, log_common::ScanLog& scans, const Budget& budget,
+                           PictureStore* images = nullptr);
 
 }  // namespace cairn::mcap_log

@@ -17,6 +17,11 @@ void SonarConfig::describe(Fields<SonarConfig>& fields) {
                 "longest range, what is beyond is no echo; left out: the message's max_range");
 }
 
+void ImageTopic::describe(Fields<ImageTopic>& fields) {
+  fields.text("topic", &ImageTopic::topic, "of sensor_msgs/msg/Image or CompressedImage (JPEG, PNG)").required = true;
+  fields.integer("camera", &ImageTopic::camera, {0, 15}, "number in the robot's file, from 0");
+}
+
 void Config::describe(Fields<Config>& fields) {
   fields.file("file", &Config::file, "the log, plain or gzip").required = true;
   fields.texts("ranges", &Config::ranges,
@@ -29,6 +34,8 @@ void Config::describe(Fields<Config>& fields) {
   fields.text("odometry_frame", &Config::odometry_frame, "in which transforms say where the robot is");
   fields.text("base_frame", &Config::base_frame, "the robot's frame; empty: the child frame of the odometry");
   fields.list("frames", &Config::frames, "where sensors are, instead of what the transforms say");
+  fields.list("images", &Config::images,
+              "topics of pictures, for missions with `markers`; left out: the only topic of pictures is camera 0");
   fields.choice("stamp", &Config::stamp, {{"header", Stamp::header}, {"log", Stamp::log}},
                 "whose time counts: the messages' (the recorder's where that is 0) or the recorder's");
   fields.group("sonar", &Config::sonar, "what wins over what Range messages say");

@@ -32,6 +32,14 @@ struct SonarConfig {
   static void describe(Fields<SonarConfig>& fields);
 };
 
+// The pictures of a camera.
+struct ImageTopic {
+  std::string topic;
+  int camera = 0;
+
+  static void describe(Fields<ImageTopic>& fields);
+};
+
 struct Config : log_common::LogRules {
   std::filesystem::path file;
   std::vector<std::string> ranges;
@@ -41,6 +49,7 @@ struct Config : log_common::LogRules {
   std::string odometry_frame = "odom";
   std::string base_frame;
   std::vector<FramePlace> frames;
+  std::vector<ImageTopic> images;
   Stamp stamp = Stamp::header;
   SonarConfig sonar;
   log_common::LaserConfig laser;

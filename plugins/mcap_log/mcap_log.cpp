@@ -4,9 +4,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 
 #include "maps/base/text.hpp"
 #include "plugins/common/frames/static_frames.hpp"
+#include "plugins/common/pictures/grey_picture.hpp"
 #include "plugins/mcap_log/bag.hpp"
 #include "plugins/mcap_log/pose_track.hpp"
 #include "plugins/mcap_log/topics.hpp"
@@ -16,6 +19,7 @@ namespace {
 
 using frames::Mounted;
 using log_common::ScanLog;
+using pictures::RecordedPicture;
 
 constexpr double kFarthest_m = 1e5;
 constexpr std::size_t kMaxBeams = 100'000;
@@ -44,12 +48,16 @@ std::optional<Pose2> pose_of(const ros2::ReadPose& pose) {
 
 class LogReader {
  public:
-  LogReader(const Config& config, const Budget& budget)
-      : config_(config), scans_(config.file.string(), rules_of(config), budget) {
+  // cameras: whose pictures are wanted; null: none are.
+  LogReader(const Config& config, const Budget& budget, const std::vector<CameraModel>* cameras = nullptr)
+      : config_(config),
+        scans_(config.file.string(), rules_of(config), budget),
+        cameras_(cameras),
+        store_(cameras == nullptr ? nullptr : std::make_shared<PictureStore>()) {
     scans_.count_in("record");
-    bag_ = read_bag(config, scans_, budget);
+    bag_ = read_bag(config, scans_, budget, store_.get());
   }
-  ScanLog read();
+  LogWithPictures read();
 
  private:
   void number_all_parts();
@@ -59,6 +67,9 @@ class LogReader {
   void learn_compass();
   void add_pose(const Moment& at, std::uint64_t offset, const ros2::ReadPose& pose, const std::string& child);
   [[nodiscard]] std::vector<Item> items() const;
+  [[nodiscard]] const CameraModel& camera_of(const ImageTopic& images) const;
+  void collect_pictures();
+  void add_pictures_until(const Moment& at);
   void add_ranges(std::span<const Item> items);
   void add_scan(const Item& item);
   [[nodiscard]] RangeReading reading_of(const Item& item);
@@ -84,17 +95,23 @@ class LogReader {
   PoseTrack headings_;
   std::map<std::string, int> sensors_;  // numbers of transducers, by topic and frame
   int next_sensor_ = 0;
+  const std::vector<CameraModel>* cameras_;
+  std::shared_ptr<PictureStore> store_;
+  std::vector<std::pair<Moment, RecordedPicture>> waiting_;  // the next one last
+  std::vector<RecordedPicture> pictures_;
 };
 
-ScanLog LogReader::read() {
-  chosen_ = chosen_topics(config_, bag_);
+LogWithPictures LogReader::read() {
+  chosen_ = chosen_topics(config_, bag_, cameras_ != nullptr);
   number_all_parts();
   learn_frames();
   learn_poses();
   learn_compass();
+  collect_pictures();
   const std::vector<Item> all = items();
   for (std::size_t i = 0; i < all.size();) {
     std::size_t end = i + 1;
+    add_pictures_until(all[i].at());
     if (all[i].scan != nullptr) {
       guarded(all[i].scan->offset, [&] { add_scan(all[i]); });
     } else {
@@ -105,7 +122,37 @@ ScanLog LogReader::read() {
   }
   if (!config_.compass_from_pose) scans_.forget_start();
   scans_.finish();
-  return std::move(scans_);
+  return {std::move(scans_), std::move(pictures_)};
+}
+
+// Throws ConfigError.
+const CameraModel& LogReader::camera_of(const ImageTopic& images) const {
+  try {
+    return pictures::camera_of(images.camera, *cameras_);
+  } catch (const std::runtime_error& error) {
+    throw ConfigError({config_.file.string(), 0, 0}, "images: " + in_quotes(images.topic) + ": " + error.what());
+  }
+}
+
+void LogReader::collect_pictures() {
+  for (const ImageTopic& images : chosen_.images) {
+    const CameraModel& camera = camera_of(images);
+    for (const Timed<StoredPicture>& image : bag_.images[images.topic])
+      guarded(image.offset, [&] {
+        check_size(image.message, camera);
+        waiting_.emplace_back(image.at,
+                              RecordedPicture{image.at.stamp_s, 0, reader_of(store_, image.message, images.camera)});
+      });
+  }
+  std::ranges::stable_sort(waiting_, [](const auto& a, const auto& b) { return b.first < a.first; });
+}
+
+// They go with the next observation.
+void LogReader::add_pictures_until(const Moment& at) {
+  for (; !waiting_.empty() && waiting_.back().first <= at; waiting_.pop_back()) {
+    pictures_.push_back(std::move(waiting_.back().second));
+    pictures_.back().observation = scans_.size();
+  }
 }
 
 void LogReader::number_all_parts() {
@@ -122,6 +169,7 @@ void LogReader::number_all_parts() {
   add(bag_.odometry, chosen_.odometry);
   add(bag_.transforms, chosen_.transforms);
   add(bag_.compasses, config_.compass);
+  for (const ImageTopic& images : chosen_.images) add(bag_.images, images.topic);
   number_parts(std::move(moments));
 }
 
@@ -274,7 +322,13 @@ void LogReader::add_scan(const Item& item) {
 
 ScanLog read_mcap_log(const Config& config, const Budget& budget) {
   log_common::check_limits(config.file, "laser", config.laser);
-  return LogReader(config, budget).read();
+  return LogReader(config, budget).read().scans;
+}
+
+LogWithPictures read_with_pictures(const Config& config, const std::vector<CameraModel>& cameras,
+                                   const Budget& budget) {
+  log_common::check_limits(config.file, "laser", config.laser);
+  return LogReader(config, budget, &cameras).read();
 }
 
 }  // namespace cairn::mcap_log

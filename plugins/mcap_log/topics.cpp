@@ -85,6 +85,18 @@ void choose_odometry(const Config& config, const Bag& bag, ChosenTopics& chosen)
            bag);
 }
 
+// Nothing has been read of them when they are not wanted.
+std::vector<ImageTopic> chosen_images(const Config& config, const Bag& bag, bool wants_images) {
+  if (!wants_images) return {};
+  for (const ImageTopic& image : config.images)
+    check(config, bag, "images", image.topic, bag.images.contains(image.topic),
+          "sensor_msgs/msg/Image or CompressedImage");
+  if (!config.images.empty() || bag.images.empty()) return config.images;
+  if (bag.images.size() > 1)
+    refuse(config, "several topics of pictures; choose by `images` among " + listed(names_of(bag.images)), bag);
+  return {{bag.images.begin()->first, 0}};
+}
+
 }  // namespace
 
 std::string shown_topics(const Bag& bag) {
@@ -97,8 +109,9 @@ std::string shown_topics(const Bag& bag) {
   return text.empty() ? "none" : text;
 }
 
-ChosenTopics chosen_topics(const Config& config, const Bag& bag) {
+ChosenTopics chosen_topics(const Config& config, const Bag& bag, bool wants_images) {
   ChosenTopics chosen;
+  chosen.images = chosen_images(config, bag, wants_images);
   chosen.ranges = chosen_ranges(config, bag);
   choose_odometry(config, bag, chosen);
   if (!config.compass.empty())

@@ -26,6 +26,13 @@ void ShownTopics::describe(Fields<ShownTopics>& fields) {
   fields.text("map_frame", &ShownTopics::map_frame, "frame_id of all that is shown, and of goals");
 }
 
+void ImageTopic::describe(Fields<ImageTopic>& fields) {
+  fields.text("topic", &ImageTopic::topic, "its full name, as /camera/image_raw").required = true;
+  fields.choice("type", &ImageTopic::kind, {{"raw", ImageKind::raw}, {"compressed", ImageKind::compressed}},
+                "sensor_msgs/Image, or sensor_msgs/CompressedImage (JPEG, PNG)");
+  fields.integer("camera", &ImageTopic::camera, {0, 15}, "number in the robot's file, from 0");
+}
+
 void InitialPoseTopic::describe(Fields<InitialPoseTopic>& fields) {
   fields.text("topic", &InitialPoseTopic::topic,
               "geometry_msgs/PoseWithCovarianceStamped where the robot begins, as /initialpose; empty: as the mission "
@@ -47,6 +54,7 @@ void Config::describe(Fields<Config>& fields) {
                "addresses of computers that are asked besides multicast; without them those of the environment's "
                "ROS_STATIC_PEERS");
   ros::describe_topics(fields);
+  fields.list("images", &Config::images, "topics of pictures; read only by missions with `markers`");
   fields.group("command", &Config::command, "velocities");
   fields.group("show", &Config::show, "topics that show the mission to people");
   fields.text("goal", &Config::goal,

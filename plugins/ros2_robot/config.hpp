@@ -52,11 +52,23 @@ struct InitialPoseTopic {
   static void describe(Fields<InitialPoseTopic>& fields);
 };
 
+enum class ImageKind { raw, compressed };
+
+// The pictures of a camera.
+struct ImageTopic {
+  std::string topic;
+  ImageKind kind = ImageKind::raw;
+  int camera = 0;  // number in the robot's file
+
+  static void describe(Fields<ImageTopic>& fields);
+};
+
 struct Config : ros::RobotTopics {
   int domain = kDomainOfEnvironment;
   Network network = Network::environment;
   std::string interface;           // empty: as the system chooses
   std::vector<std::string> peers;  // addresses that are asked besides multicast; none: as the environment says
+  std::vector<ImageTopic> images;
   CommandTopic command;
   ShownTopics show;
   std::string goal;  // empty: none

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "plugins/common/pictures/grey_picture.hpp"
+
 namespace cairn::ros2_robot {
 namespace {
 
@@ -114,6 +116,19 @@ std::vector<Point> points_of(const PointCloud2& cloud) {
       points_m.emplace_back(x.of(point, cloud.is_bigendian), y.of(point, cloud.is_bigendian));
     }
   return points_m;
+}
+
+CameraImage picture_of(const Image& image) {
+  return pictures::grey_of({image.width,
+                            image.height,
+                            image.encoding == nullptr ? "" : image.encoding,
+                            image.step,
+                            image.is_bigendian != 0,
+                            {image.data._buffer, image.data._length}});
+}
+
+CameraImage picture_of(const CompressedImage& image) {
+  return pictures::unpacked({image.data._buffer, image.data._length});
 }
 
 }  // namespace cairn::ros2_robot

@@ -21,6 +21,8 @@ using MagneticField = sensor_msgs_msg_dds__MagneticField_;
 using TFMessage = tf2_msgs_msg_dds__TFMessage_;
 using Imu = sensor_msgs_msg_dds__Imu_;
 using BatteryState = sensor_msgs_msg_dds__BatteryState_;
+using Image = sensor_msgs_msg_dds__Image_;
+using CompressedImage = sensor_msgs_msg_dds__CompressedImage_;
 using TwistMessage = geometry_msgs_msg_dds__Twist_;
 using PoseStamped = geometry_msgs_msg_dds__PoseStamped_;
 using PoseWithCovarianceStamped = geometry_msgs_msg_dds__PoseWithCovarianceStamped_;
@@ -49,5 +51,9 @@ inline constexpr std::size_t kMaxCloudPoints = 4096;
 [[nodiscard]] std::vector<Point> points_of(const PointCloud& cloud);
 // Of float or double fields x and y. Throws std::runtime_error when the layout cannot be.
 [[nodiscard]] std::vector<Point> points_of(const PointCloud2& cloud);
+
+// Made grey; stamp and camera are left to the caller. Throw std::runtime_error with what is wrong with the picture.
+[[nodiscard]] CameraImage picture_of(const Image& image);
+[[nodiscard]] CameraImage picture_of(const CompressedImage& image);
 
 }  // namespace cairn::ros2_robot

@@ -22,8 +22,8 @@ void register_module(cairn::Registrar& registrar) {
       "ros2_robot", "drives a robot on a ROS 2 network, without ROS on this computer",
       [](const ros2_robot::Config& config, const cairn::SensorContext& context) {
         return std::make_unique<cairn::live::LiveRobot>(
-            ros2_robot::link_to(config, context.robot, context.budget, guard_program()), config.stop_when,
-            context.robot);
+            ros2_robot::link_to(config, context.robot, context.budget, guard_program(), context.wants_images),
+            config.stop_when, context.robot);
       });
 }
 

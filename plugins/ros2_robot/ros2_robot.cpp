@@ -5,8 +5,8 @@
 namespace cairn::ros2_robot {
 
 std::unique_ptr<live::BaseLink> link_to(const Config& config, const RobotModel& robot, const Budget& budget,
-                                        const std::filesystem::path& guard) {
-  return std::make_unique<RosLink>(config, robot, budget, guard);
+                                        const std::filesystem::path& guard, bool wants_images) {
+  return std::make_unique<RosLink>(config, robot, budget, guard, wants_images);
 }
 
 }  // namespace cairn::ros2_robot

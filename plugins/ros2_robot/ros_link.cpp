@@ -27,13 +27,15 @@ constexpr std::size_t kMaxListed = 8;
 
 }  // namespace
 
-RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard)
+RosLink::RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard,
+                 bool wants_images)
     : config_(config),
       chosen_(choose_network(config)),
       robot_(robot),
       budget_(budget),
       guard_program_(std::move(guard)),
       ranges_(config_),
+      images_(config_, robot_, wants_images),
       observer_(config_, robot_),
       display_(config_.show, config_.goal) {
   check_settings(config, robot);
@@ -105,6 +107,7 @@ void RosLink::make_endpoints() {
   participant_.emplace(chosen_.network);
   odometry_ = participant_->reader(config_.odometry, nav_msgs_msg_dds__Odometry__desc);
   ranges_.open(*participant_);
+  images_.open(*participant_);
   const CompassTopic& compass = config_.compass;
   if (!compass.topic.empty())
     compass_ = participant_->reader(compass.topic, compass.kind == CompassKind::imu
@@ -178,6 +181,7 @@ bool RosLink::receive(std::vector<Observation>& seen) {
   do {
     take_frames();
     ranges_.take(observer_);
+    images_.take(observer_.heard());
     take_others();
     take_odometry(seen);
     if (!seen.empty()) return true;
@@ -223,8 +227,10 @@ void RosLink::take_odometry(std::vector<Observation>& seen) {
     check_publisher(publisher, arrived_s);
     const auto pose = pose_of(odometry.pose.pose);
     if (pose) display_.observed(odometry.header, *pose);
-    auto observation = observer_.take(message_of(odometry), arrived_s);
+    const ros::Odometry said = message_of(odometry);
+    auto observation = observer_.take(said, arrived_s);
     if (!observation) return;
+    images_.move_into(*observation, config_.stamp == Stamp::header ? said.header.stamp_s : arrived_s);
     if (observation->stopped_by.empty() && !velocity_->is_heard(arrived_s))
       observation->stopped_by = "a base that nobody has met: no one listens to " + config_.command.topic;
     seen.push_back(std::move(*observation));
@@ -254,6 +260,7 @@ std::vector<ConnectionPart> RosLink::parts() {
     if (parts.back().problem.empty() && config_.stamp == Stamp::header)
       parts.back().problem = observer_.heard().clocks_apart(config_.ranges[i].topic, config_.odometry);
   }
+  for (const Entity& images : images_.readers()) parts.push_back(report.of_reader(images, Importance::steady));
   if (compass_) parts.push_back(report.of_reader(compass_, Importance::steady));
   if (battery_) parts.push_back(report.of_reader(battery_, Importance::said_rarely));
   for (const Entity& bumper : bumpers_) parts.push_back(report.of_reader(bumper, Importance::said_rarely));

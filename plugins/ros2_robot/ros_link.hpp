@@ -16,6 +16,7 @@
 #include "plugins/ros2_robot/dds/endpoints.hpp"
 #include "plugins/ros2_robot/dds/velocity_topic.hpp"
 #include "plugins/ros2_robot/display_topics.hpp"
+#include "plugins/ros2_robot/image_topics.hpp"
 #include "plugins/ros2_robot/messages.hpp"
 #include "plugins/ros2_robot/network.hpp"
 #include "plugins/ros2_robot/range_topics.hpp"
@@ -26,7 +27,8 @@ class RosLink final : public live::BaseLink {
  public:
   // Throws std::invalid_argument with a setting or a variable of the environment that cannot be. The budget is of
   // start(). guard: the program that guards the wheels (guard.cpp); empty: none does.
-  RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard);
+  RosLink(const Config& config, const RobotModel& robot, const Budget& budget, std::filesystem::path guard,
+          bool wants_images);
 
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] std::string awaited() const override;
@@ -76,6 +78,7 @@ class RosLink final : public live::BaseLink {
   std::vector<Entity> bumpers_;
   Entity emergency_;
   RangeTopics ranges_;
+  ImageTopics images_;
   std::optional<VelocityTopic> velocity_;
   std::unique_ptr<live::GuardProcess> guard_;
   std::mutex guarding_;

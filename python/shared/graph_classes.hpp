@@ -3,7 +3,9 @@
 
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "maps/landmarks/landmark_graph.hpp"
 #include "python/shared/pose_arrays.hpp"
@@ -26,6 +28,13 @@ void add_landmark(pybind11::handle scope, const Extra&... extra) {
       .def_property_readonly(
           "approach_pose", [](const Landmark& landmark) { return tuple_of(landmark.approach_pose()); },
           "Where a robot stands to be at it: (x m, y m, heading rad).")
+      .def_property_readonly(
+          "marker",
+          [](const Landmark& landmark) {
+            return landmark.marker ? std::optional(std::pair(name_of(landmark.marker->family), landmark.marker->number))
+                                   : std::nullopt;
+          },
+          "Of a printed tag, its family and number: (\"36h11\", 7); else None.")
       .def_readonly("degree", &Landmark::degree, "Of its best matching, 0 to 1.")
       .def_readonly("sightings", &Landmark::sightings)
       .def_readonly("level", &Landmark::level)

@@ -45,6 +45,15 @@ inline void write_scan(Cdr& to, const Stamped& header, const std::vector<float>&
   write_header(to, header);
   to << -0.5F << 0.5F << 0.5F << 0.0F << 0.1F << 0.1F << 10.0F << ranges << std::vector<float>{};
 }
+inline void write_image(Cdr& to, const Stamped& header, std::uint32_t height_px, std::uint32_t width_px,
+                        const std::string& encoding, std::uint32_t step, const std::vector<std::uint8_t>& data) {
+  write_header(to, header);
+  to << height_px << width_px << encoding << std::uint8_t{0} << step << data;
+}
+inline void write_compressed_image(Cdr& to, const Stamped& header, const std::string& format, const std::string& data) {
+  write_header(to, header);
+  to << format << std::vector<std::uint8_t>(data.begin(), data.end());
+}
 inline void write_bool(Cdr& to, bool value) {
   to << value;
 }

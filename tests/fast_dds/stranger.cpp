@@ -157,7 +157,7 @@ std::unique_ptr<Stranger::Reader> Stranger::reader(const std::string& topic, con
 }
 
 Bytes written(const std::function<void(eprosima::fastcdr::Cdr&)>& write) {
-  Bytes room(1U << 16U);
+  Bytes room(1U << 20U);
   eprosima::fastcdr::FastBuffer buffer(room.data(), room.size());
   eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS, eprosima::fastcdr::Cdr::DDS_CDR);
   cdr.serialize_encapsulation();

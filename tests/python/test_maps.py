@@ -1,8 +1,14 @@
 """Saved maps as arrays and objects."""
+import pathlib
+import subprocess
+
 import numpy as np
 import pytest
 
 import cairn
+from cairn import _native
+
+PROGRAM = pathlib.Path(_native.prefix) / "bin" / "cairn"
 
 
 def test_a_tile_is_a_read_only_view_of_the_map_itself(office_map):
@@ -63,6 +69,18 @@ def test_landmarks_and_routes_refer_to_each_other(office_map):
         assert route.from_ in ids and route.to in ids
         assert route.trajectory.shape[1] == 3
         assert route.cost_m > 0
+
+
+def test_a_printed_tag_has_its_family_and_number(tmp_path):
+    (tmp_path / "tags.graphml").write_text(
+        '<graphml xmlns="http://graphml.graphdrawing.org/xmlns"><key id="x" for="node" attr.name="x" attr.type="double"/>'
+        '<key id="y" for="node" attr.name="y" attr.type="double"/>'
+        '<key id="t" for="node" attr.name="april_tag" attr.type="string"/><graph edgedefault="directed">'
+        '<node id="n1"><data key="x">1</data><data key="y">2</data><data key="t">tag 25h9 7</data></node>'
+        '<node id="n2"><data key="x">3</data><data key="y">2</data></node></graph></graphml>')
+    subprocess.run([PROGRAM, "map", "import", tmp_path / "tags.graphml", "-o", tmp_path / "tags.cairn"], check=True,
+                   stdout=subprocess.DEVNULL)
+    assert [landmark.marker for landmark in cairn.load(tmp_path / "tags.cairn").landmarks] == [("25h9", 7), None]
 
 
 def test_a_name_finds_its_landmark_and_is_saved(office_map, tmp_path):

@@ -202,6 +202,7 @@ void MissionLoop::show() {
 void MissionLoop::redraw_map() {
   world_.grid = &perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
   world_.coarse = nullptr;
+  for (const Event& event : perception_.take_corrected_landmarks()) publisher_.publish(event);
 }
 
 // By the map as it was before this observation.

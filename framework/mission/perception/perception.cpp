@@ -98,12 +98,15 @@ const CoarseGrid* Perception::show_earlier_map() {
 void Perception::see_markers(Observation& observation) {
   for (const MarkerSighting& sighting : observation.markers)
     if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.sensor.fault(fault);
-  if (!modules_.marker_detector || observation.images.empty()) return;
-  const std::vector<MarkerSighting> seen = modules_.marker_detector.call(
-      [&](MarkerDetector& detector) { return detector.detect(observation.images, budget_); });
-  for (const MarkerSighting& sighting : seen)
-    if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.marker_detector.fault(fault);
-  observation.markers.insert(observation.markers.end(), seen.begin(), seen.end());
+  sighting_motion_.add(observation.stamp_s, observation.T_odom_robot);
+  if (modules_.marker_detector && !observation.images.empty()) {
+    const std::vector<MarkerSighting> seen = modules_.marker_detector.call(
+        [&](MarkerDetector& detector) { return detector.detect(observation.images, budget_); });
+    for (const MarkerSighting& sighting : seen)
+      if (const std::string fault = fault_of(sighting); !fault.empty()) throw modules_.marker_detector.fault(fault);
+    observation.markers.insert(observation.markers.end(), seen.begin(), seen.end());
+  }
+  for (MarkerSighting& sighting : observation.markers) sighting_motion_.bring_to_now(sighting);
 }
 
 PoseEstimate Perception::localize(const Observation& observation) {
@@ -181,7 +184,7 @@ KeptSubmaps Perception::submaps() {
 const OccupancyGrid& Perception::redraw(std::shared_ptr<Mapper> map) {
   modules_.mapper.replace(std::move(map));
   past_.correct(corrected_);
-  tracker_.correct_path(corrected_);
+  add_events(tracker_.correct_path(corrected_), corrected_landmarks_);
   for (std::size_t i = 0; i < past_.size() && !budget_.cancelled(); ++i) {
     const Observation seen = past_.observation(i);
     const PoseEstimate pose{corrected_[i]};

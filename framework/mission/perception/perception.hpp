@@ -11,6 +11,7 @@
 #include "framework/mission/held_out.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/perception/past.hpp"
+#include "framework/mission/perception/sighting_motion.hpp"
 
 namespace cairn {
 
@@ -56,7 +57,7 @@ class Perception {
   const CoarseGrid* show_earlier_map();
 
   // The stages of a tick, in their order.
-  // Adds the markers that are in the observation's pictures.
+  // Adds the markers that are in the observation's pictures, and brings all to where the robot is now.
   void see_markers(Observation& observation);
   [[nodiscard]] PoseEstimate localize(const Observation& observation);
   // Which cells may have changed; valid until the next call. Of deaf transducers "no echo" is no news for the map.
@@ -71,6 +72,8 @@ class Perception {
   // Draws the past at its corrected poses into a map that holds none of it, which takes the place of the map so far.
   // Its grid. The detector gets all of it the next time.
   const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
+  // What that has done to the landmarks that move with the robot's path; once.
+  [[nodiscard]] std::vector<Event> take_corrected_landmarks() { return std::exchange(corrected_landmarks_, {}); }
   // What the localizer knows of submaps; none from one that has none.
   [[nodiscard]] KeptSubmaps submaps();
   [[nodiscard]] const Past& past() const { return past_; }
@@ -122,9 +125,11 @@ class Perception {
   PoseHistory* history_ = nullptr;  // the localizer's
   Past past_;
   std::vector<Pose2> corrected_;  // of the past, by the revision below
+  std::vector<Event> corrected_landmarks_;
   std::uint64_t revision_ = 0;
   std::size_t drawn_ = 0;  // size of the past when the map was last drawn anew
   bool is_redrawn_ = false;
+  SightingMotion sighting_motion_;
 };
 
 }  // namespace cairn

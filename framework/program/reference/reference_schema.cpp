@@ -72,6 +72,7 @@ ordered_json shape_of(const FieldSpec& field) {
   if (field.type == "list of places") return list_of(place);
   if (field.type == "list of numbers") return list_of(bounded("number", field.range));
   if (field.type == "list of integers") return list_of(bounded("integer", field.range));
+  if (field.type == "list of choices") return list_of({{"enum", field.choices}});
   if (field.type == "list of texts" || field.type == "list of files") return list_of(kText);
   if (field.type == "map") return map_of(field);
   if (field.type == "list of maps") return list_of(map_of(field));

@@ -16,6 +16,7 @@ namespace {
 constexpr double kRedraw_s = 2.0;        // of mission time
 constexpr double kReportEvery_s = 60.0;  // the same, where nothing can be drawn over
 constexpr std::size_t kMaxColumns = 110;
+constexpr double kMuchWorse = 2.0;
 
 std::string ended_text(const std::string& which, const std::string& name, const Status& status, bool is_halted) {
   const char* const how = is_halted ? "halted" : status.state == StepState::success ? "done" : "failed";
@@ -64,7 +65,7 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
            fmt::format("autosaved {} (state at {:.3f} s, written in {:.0f} ms)", e->file_name, e->time_s, e->took_ms));
     out_ << std::flush;
   }
-  if (const auto* e = std::get_if<Stalled>(&event)) report(time_s, stall_text(*e));
+  if (const auto* e = std::get_if<Stalled>(&event)) report_stall(*e, time_s);
   if (const auto* e = std::get_if<AutosaveFailed>(&event))
     report(time_s, "autosave failed, the mission continues: " + e->reason);
   if (const auto* e = std::get_if<Message>(&event)) report(time_s, e->sentence);
@@ -79,6 +80,14 @@ void ProgressLine::on(const Event& event, const MissionView& view) {
   }
   if (const auto* e = std::get_if<Resumed>(&event))
     report(time_s, e->paused_s ? fmt::format("resumed after {:.1f} s", *e->paused_s) : "resumed");
+}
+
+// A stage that is too slow stalls tick after tick: that is reported once, and again when it is much worse.
+void ProgressLine::report_stall(const Stalled& stalled, double time_s) {
+  const auto [longest_s, is_first] = stalls_s_.try_emplace({stalled.stage, stalled.module}, stalled.for_s);
+  if (!is_first && stalled.for_s < kMuchWorse * longest_s->second) return;
+  longest_s->second = stalled.for_s;
+  report(time_s, stall_text(stalled));
 }
 
 // A map that the mission goes on with holds some already.

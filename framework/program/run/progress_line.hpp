@@ -27,6 +27,7 @@ class ProgressLine : public Listener {
 
  private:
   void report(double time_s, const std::string& sentence);
+  void report_stall(const Stalled& stalled, double time_s);
   void report_landmark(const LandmarkChanged& change, double time_s);
   void remember_categories(const LandmarkGraph& graph);
   void report_nodes(const Event& event, double time_s);
@@ -40,6 +41,7 @@ class ProgressLine : public Listener {
   double drawn_at_s_ = 0.0;
   std::map<LandmarkId, std::string> categories_;  // as reported last
   bool has_begun_ = false;
+  std::map<std::pair<std::string, std::string>, double> stalls_s_;  // the longest reported, by stage and module
 };
 
 }  // namespace cairn

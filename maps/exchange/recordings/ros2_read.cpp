@@ -34,6 +34,10 @@ class CdrReader {
     if (count > (bytes_.size() - at_) / each) throw MessageError("the message ends early");
     return count;
   }
+  std::span<const std::uint8_t> octets() {
+    const std::string_view data = take(u32());
+    return {reinterpret_cast<const std::uint8_t*>(data.data()), data.size()};
+  }
   ReadHeader header() {
     constexpr std::int64_t kNsOfSecond = 1'000'000'000;
     const auto seconds = static_cast<std::int32_t>(u32());
@@ -140,6 +144,28 @@ std::vector<TransformMessage> read_tf(std::string_view cdr) {
     message.pose = in.pose();
   }
   return messages;
+}
+
+ImageMessage read_image(std::string_view cdr) {
+  CdrReader in(cdr);
+  ImageMessage message;
+  message.header = in.header();
+  message.height_px = in.u32();
+  message.width_px = in.u32();
+  message.encoding = in.text();
+  message.is_bigendian = in.u8() != 0;
+  message.step = in.u32();
+  message.data = in.octets();
+  return message;
+}
+
+CompressedImageMessage read_compressed_image(std::string_view cdr) {
+  CdrReader in(cdr);
+  CompressedImageMessage message;
+  message.header = in.header();
+  message.format = in.text();
+  message.data = in.octets();
+  return message;
 }
 
 }  // namespace cairn::exchange::ros2

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -60,6 +61,21 @@ struct TransformMessage {
   std::string child_frame;
   ReadPose pose;
 };
+// The data are those of the message's bytes.
+struct ImageMessage {
+  ReadHeader header;
+  std::uint32_t height_px = 0;
+  std::uint32_t width_px = 0;
+  std::string encoding;
+  bool is_bigendian = false;
+  std::uint32_t step = 0;  // bytes of a row
+  std::span<const std::uint8_t> data;
+};
+struct CompressedImageMessage {
+  ReadHeader header;
+  std::string format;
+  std::span<const std::uint8_t> data;
+};
 
 // Throw MessageError.
 [[nodiscard]] RangeMessage read_range(std::string_view cdr);
@@ -67,5 +83,8 @@ struct TransformMessage {
 [[nodiscard]] OdometryMessage read_odometry(std::string_view cdr);
 [[nodiscard]] ImuMessage read_imu(std::string_view cdr);
 [[nodiscard]] std::vector<TransformMessage> read_tf(std::string_view cdr);
+// The bytes must outlive these.
+[[nodiscard]] ImageMessage read_image(std::string_view cdr);
+[[nodiscard]] CompressedImageMessage read_compressed_image(std::string_view cdr);
 
 }  // namespace cairn::exchange::ros2

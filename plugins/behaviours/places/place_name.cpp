@@ -12,6 +12,11 @@
 namespace cairn::behaviours {
 namespace {
 
+void check_tag_is_possible(const std::string& name, const ConfigValue& value, const std::string& key) {
+  if (const std::string fault = marker_name_fault(name); !fault.empty())
+    throw ConfigError(value.place, key + ": " + in_quotes(name) + ": " + fault);
+}
+
 constexpr std::size_t kMaxListed = 12;
 const std::string kNearest = "nearest ";
 
@@ -51,6 +56,7 @@ PlaceName to_place_name(const ConfigValue& value, const std::string& key) {
     throw ConfigError(value.place, key + ": " + in_quotes(name.text) +
                                        " is not a place; one is [x, y], a landmark's id (L3) or name, or `nearest "
                                        "CATEGORY`");
+  check_tag_is_possible(name.text, value, key);
   return name;
 }
 
@@ -63,6 +69,7 @@ std::string to_landmark_name(const ConfigValue& value, const std::string& key) {
     throw ConfigError(value.place, key + ": " + in_quotes(name) +
                                        " is a place, and a landmark is wanted: an id (L3), a name, or `nearest "
                                        "CATEGORY`");
+  check_tag_is_possible(name, value, key);
   return name;
 }
 

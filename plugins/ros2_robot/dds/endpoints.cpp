@@ -6,7 +6,6 @@
 namespace cairn::ros2_robot {
 namespace {
 
-constexpr int kKept = 50;  // messages of a reader
 constexpr int kMaxEndpoints = 512;
 constexpr dds_duration_t kBlockFor = DDS_MSECS(20);
 
@@ -107,14 +106,15 @@ Entity Participant::topic(const std::string& name, const dds_topic_descriptor_t&
                  "ros2_robot: topic " + name);
 }
 
-Entity Participant::reader(const std::string& name, const dds_topic_descriptor_t& type, Reading reading) const {
+Entity Participant::reader(const std::string& name, const dds_topic_descriptor_t& type, Reading reading,
+                           int kept) const {
   const Qos qos;
   if (reading == Reading::best_effort)
     dds_qset_reliability(qos.qos, DDS_RELIABILITY_BEST_EFFORT, 0);
   else
     dds_qset_reliability(qos.qos, DDS_RELIABILITY_RELIABLE, kBlockFor);
   if (reading == Reading::latched) dds_qset_durability(qos.qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, kKept);
+  dds_qset_history(qos.qos, DDS_HISTORY_KEEP_LAST, kept);
   Entity of = topic(name, type);
   return checked(dds_create_reader(participant_.get(), of.release(), qos.qos, nullptr),
                  "ros2_robot: no reader of " + name);

@@ -69,9 +69,11 @@ class Participant {
   // Throws std::runtime_error with DDS's reason.
   explicit Participant(const NetworkChoice& network);
 
+  static constexpr int kKept = 50;  // messages of a reader
+
   // Throw std::runtime_error.
   [[nodiscard]] Entity reader(const std::string& name, const dds_topic_descriptor_t& type,
-                              Reading reading = Reading::best_effort) const;
+                              Reading reading = Reading::best_effort, int kept = kKept) const;
   // Writes reliably: that fits whatever is wanted.
   [[nodiscard]] Entity writer(const std::string& name, const dds_topic_descriptor_t& type,
                               Writing writing = Writing::passing) const;

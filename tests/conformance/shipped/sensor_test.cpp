@@ -29,6 +29,9 @@ std::string config_of(const std::string& file) {
 const std::string kDerived =
     std::string("{source: {plugin: carmen_log, file: \"") + CAIRN_SOURCE_DIR + "/tests/data/carmen.log\"}}";
 
+const std::string kPictures = std::string("{log: {plugin: carmen_log, file: \"") + CAIRN_SOURCE_DIR +
+                              "/tests/data/carmen.log\"}, pictures: [{list: rgb.txt}]}";
+
 const std::string kLego = std::string("{file: \"") + CAIRN_SOURCE_DIR + "/tests/data/lego_scans.log\", motors: \"" +
                           CAIRN_SOURCE_DIR + "/tests/data/lego_motors.log\", compass_from_pose: true}";
 
@@ -106,6 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, SensorConformance,
                                          module<Sensor>(kModules, "laser_log", config_of("scans.json")),
                                          module<Sensor>(kModules, "lego_log", kLego),
                                          module<Sensor>(kModules, "mcap_log", kBag),
+                                         module<Sensor>(kModules, "picture_log", kPictures),
                                          module<Sensor>(kModules, "sonar_from_laser", kDerived)));
 
 }  // namespace

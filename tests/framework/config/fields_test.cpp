@@ -52,6 +52,7 @@ struct Example {
   bool loud = false;
   std::string name = "none";
   Gait gait = Gait::trot;
+  std::vector<Gait> gaits{Gait::walk};
   std::filesystem::path file;
   Point at_m{1.0, 2.0};
   std::vector<Point> corners_m;
@@ -71,6 +72,7 @@ struct Example {
     fields.flag("loud", &Example::loud, "whether it is loud");
     fields.text("name", &Example::name, "what it is called");
     fields.choice("gait", &Example::gait, {{"walk", Gait::walk}, {"trot", Gait::trot}}, "how it goes");
+    fields.choices("gaits", &Example::gaits, {{"walk", Gait::walk}, {"trot", Gait::trot}}, "how it may go");
     fields.file("file", &Example::file, "where it is");
     fields.point("at_m", &Example::at_m, "m", "where it stands");
     fields.points("corners_m", &Example::corners_m, "m", "its corners");
@@ -98,6 +100,15 @@ TEST(Fields, NothingGivenLeavesTheDefaults) {
   EXPECT_FALSE(example.limit_m);
   EXPECT_FALSE(example.extra);
   EXPECT_EQ(example.gait, Gait::trot);
+}
+
+TEST(Fields, AListOfChoicesHoldsEachOnceAndAtLeastOne) {
+  EXPECT_EQ(load("").gaits, std::vector{Gait::walk});
+  EXPECT_EQ(load("gaits: [trot, walk, trot]").gaits, (std::vector{Gait::trot, Gait::walk}));
+  EXPECT_EQ(load_error("gaits: [walk, trott]"),
+            "1:15: gaits must be one of walk, trot, found \"trott\" (did you mean \"trot\"?)");
+  EXPECT_EQ(load_error("gaits: []"), "1:8: gaits must name at least one of walk, trot");
+  EXPECT_EQ(schema_of<Example>().fields[9].choices, (std::vector<std::string>{"walk", "trot"}));
 }
 
 TEST(Fields, LoadEveryType) {
@@ -131,10 +142,11 @@ TEST(Fields, LoadEveryType) {
 }
 
 TEST(Fields, UnknownKeysNameTheNearest) {
-  EXPECT_EQ(load_error("cells: 3\nspeed_mp: 1\n"),
-            "2:1: unknown key \"speed_mp\" in example (did you mean \"speed_mps\"?); known: speed_mps, limit_m, "
-            "turn_deg, cells, seed, small, loud, name, gait, file, at_m, corners_m, weights, inner, extra, many, "
-            "planner, rest");
+  EXPECT_EQ(
+      load_error("cells: 3\nspeed_mp: 1\n"),
+      "2:1: unknown key \"speed_mp\" in example (did you mean \"speed_mps\"?); known: speed_mps, limit_m, "
+      "turn_deg, cells, seed, small, loud, name, gait, gaits, file, at_m, corners_m, weights, inner, extra, many, "
+      "planner, rest");
   EXPECT_EQ(load_error("inner: {width_m: 1, size: 1}"), "1:21: unknown key \"size\" in inner; known: width_m, count");
 }
 
@@ -268,17 +280,18 @@ TEST(Fields, MistakesThatDoNotDependOnEachOtherAreReportedTogether) {
   const std::vector<std::string> errors = load_errors(
       "cells: 0\nloudd: true\nspeedd_mps: 1\nmany: [{width_m: 3}, {width_m: 1}, {cont: 1}]\n"
       "inner: {count: 0}\nat_m: [1, 2]\n");
-  EXPECT_EQ(errors, (std::vector<std::string>{
-                        "/c/e.yaml:1:8: cells must be a whole number from 1 to 100, found \"0\"",
-                        "/c/e.yaml:2:1: unknown key \"loudd\" in example (did you mean \"loud\"?); known: speed_mps, "
-                        "limit_m, turn_deg, cells, seed, small, loud, name, gait, file, at_m, corners_m, weights, "
-                        "inner, extra, many, planner, rest",
-                        "/c/e.yaml:3:1: unknown key \"speedd_mps\" in example (did you mean \"speed_mps\"?)",
-                        "/c/e.yaml:4:18: width_m must be a number from 0 to 2 m, found \"3\"",
-                        "/c/e.yaml:4:37: unknown key \"cont\" in many (did you mean \"count\"?); known: width_m, count",
-                        "/c/e.yaml:4:36: many lacks the key \"width_m\": how wide",
-                        "/c/e.yaml:5:16: count must be a whole number from 1 to 10, found \"0\"",
-                        "/c/e.yaml:5:8: inner lacks the key \"width_m\": how wide"}));
+  EXPECT_EQ(errors,
+            (std::vector<std::string>{
+                "/c/e.yaml:1:8: cells must be a whole number from 1 to 100, found \"0\"",
+                "/c/e.yaml:2:1: unknown key \"loudd\" in example (did you mean \"loud\"?); known: speed_mps, "
+                "limit_m, turn_deg, cells, seed, small, loud, name, gait, gaits, file, at_m, corners_m, weights, "
+                "inner, extra, many, planner, rest",
+                "/c/e.yaml:3:1: unknown key \"speedd_mps\" in example (did you mean \"speed_mps\"?)",
+                "/c/e.yaml:4:18: width_m must be a number from 0 to 2 m, found \"3\"",
+                "/c/e.yaml:4:37: unknown key \"cont\" in many (did you mean \"count\"?); known: width_m, count",
+                "/c/e.yaml:4:36: many lacks the key \"width_m\": how wide",
+                "/c/e.yaml:5:16: count must be a whole number from 1 to 10, found \"0\"",
+                "/c/e.yaml:5:8: inner lacks the key \"width_m\": how wide"}));
 }
 
 TEST(Fields, AfterAHundredMistakesNoMoreAreLookedFor) {

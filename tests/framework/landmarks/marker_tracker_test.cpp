@@ -182,7 +182,9 @@ TEST(MarkerLandmarks, MoveWithTheRobotsPathWhenItIsCorrected) {
     (void)see(tracker, {x_m, 2.0, 0.0}, kSeven, kTruth);
     corrected.push_back({x_m + 0.5, 2.2, 0.0});
   }
-  tracker.correct_path(corrected);
+  const auto changes = tracker.correct_path(corrected);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes[0].kind, LandmarkTracker::ChangeKind::changed);
   EXPECT_NEAR(tracker.graph().find_by_name("tag 7")->T_map_landmark.x_m, kTruth.x_m + 0.5, 0.01);
   EXPECT_NEAR(tracker.graph().find_by_name("tag 7")->T_map_landmark.y_m, kTruth.y_m + 0.2, 0.01);
 }

@@ -24,6 +24,18 @@ TEST(Assembled, WhatHasComeSinceTheLastTickIsOneObservationSeenFromWhereTheRobot
   EXPECT_NEAR(one.ranges[1].T_robot_sensor.x_m, 0.08, 1e-12);
 }
 
+TEST(Assembled, PicturesOfAllAreKept) {
+  std::vector<Observation> seen{observation(1.0, 0.0), observation(1.04, 0.01), observation(1.08, 0.03)};
+  seen[0].images.resize(1);
+  seen[0].images[0].stamp_s = 0.9;
+  seen[2].images.resize(1);
+  seen[2].images[0].stamp_s = 1.05;
+  const Observation one = assembled(seen);
+  ASSERT_EQ(one.images.size(), 2U);
+  EXPECT_EQ(one.images[0].stamp_s, 0.9);
+  EXPECT_EQ(one.images[1].stamp_s, 1.05);
+}
+
 TEST(Assembled, OneAloneIsItself) {
   const Observation one = assembled({observation(1.0, 0.5, 2.0)});
   EXPECT_EQ(one.stamp_s, 1.0);

@@ -76,6 +76,36 @@ TEST_F(MissionCheckTest, FilesThatAreMissingAreAllNamedWhereTheMissionNamesThem)
               ElementsAre(file_.string() + ":2:8: robot: " + (folder_ / "robot.yaml").string() + ": no such file"));
 }
 
+TEST_F(MissionCheckTest, ASlipUnderMarkersHidesNoCategoryAndMakesUpNoOtherError) {
+  std::ofstream(folder_ / "robot.yaml", std::ios::app)
+      << "cameras: [{x_m: 0.1, y_m: 0, height_m: 0.3, width_px: 64, height_px: 48, focal_px: [52, 52]}]\n";
+  const std::string steps = "[{landmark_known: nearest dock}]";
+  const auto errors_with = [&](const std::string& marker_setting) {
+    return check("still_localizer", steps, {"markers.detector.plugin=still_tags", marker_setting}).errors;
+  };
+  EXPECT_THAT(errors_with("markers.categories={dock: [7]}"), IsEmpty());
+  EXPECT_THAT(errors_with("markers={categories: {dock: [7]}, confirm: 3, detector: {plugin: still_tags}}"),
+              ElementsAre(HasSubstr("confirm_sightings")));
+  EXPECT_THAT(errors_with("markers.categories={dock: [7, 7]}"), ElementsAre(HasSubstr("is of category dock already")));
+  EXPECT_THAT(errors_with("markers.categories={door: [7]}"),
+              ElementsAre(HasSubstr("no template of category \"dock\"; it has door")));
+}
+
+TEST_F(MissionCheckTest, TagsThatTheDetectorNeverSeesAreRefused) {
+  std::ofstream(folder_ / "robot.yaml", std::ios::app)
+      << "cameras: [{x_m: 0.1, y_m: 0, height_m: 0.3, width_px: 64, height_px: 48, focal_px: [52, 52]}]\n";
+  EXPECT_THAT(check("still_localizer", "[{landmark_known: tag 9999}, {still_step: {}}]",
+                    {"markers.detector.plugin=still_tags", "markers.categories={dock: [40]}"})
+                  .errors,
+              ElementsAre(HasSubstr(":6:26: landmark_known: \"tag 9999\": there is no such tag: 36h11 has 0 to 586"),
+                          HasSubstr("categories.dock: there is no tag with the id 40: 25h9 has 0 to 34")));
+}
+
+TEST_F(MissionCheckTest, WhatAModuleHasAgainstSeveralSettingsHasItsPlace) {
+  EXPECT_THAT(check("still_refuser", "[{still_step: {}}]").errors,
+              ElementsAre(HasSubstr("mission.yaml:4:12: these do not go together")));
+}
+
 TEST_F(MissionCheckTest, AMissingFileIsAnErrorLikeOthers) {
   const MissionCheck none = check_mission(folder_ / "none.yaml", {}, still::library());
   EXPECT_EQ(none.mission, "");

@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "framework/contracts/marker_detector.hpp"
+#include "framework/contracts/optional/marker_families.hpp"
 #include "framework/mission/runner.hpp"
 #include "framework/modules/module_library.hpp"
 
@@ -86,6 +88,13 @@ class Behaviour : public cairn::Behaviour {
   void halt() override {}
 };
 
+// Looks for one small family of tags, and sees none.
+class Tags : public MarkerDetector, public MarkerFamilies {
+ public:
+  std::vector<MarkerSighting> detect(std::span<const CameraImage>, const Budget&) override { return {}; }
+  [[nodiscard]] std::vector<MarkerFamily> families() const override { return {MarkerFamily::tag25h9}; }
+};
+
 inline ModuleLibrary library() {
   Registrar registrar;
   registrar.add<cairn::Sensor, SensorConfig>(
@@ -99,6 +108,11 @@ inline ModuleLibrary library() {
   plain("still_localizer", std::type_identity<cairn::Localizer>(), std::type_identity<Localizer>());
   plain("still_map", std::type_identity<cairn::Mapper>(), std::type_identity<Mapper>());
   plain("still_detector", std::type_identity<cairn::Detector>(), std::type_identity<Detector>());
+  plain("still_tags", std::type_identity<MarkerDetector>(), std::type_identity<Tags>());
+  registrar.add<cairn::Localizer, NoConfig>("still_refuser", "takes no settings",
+                                            [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Localizer> {
+                                              throw ConfigError({}, "these do not go together");
+                                            });
   plain("still_step", std::type_identity<cairn::Behaviour>(), std::type_identity<Behaviour>());
   ModuleLibrary library({});
   library.add("(linked in)", registrar);

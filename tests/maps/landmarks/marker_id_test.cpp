@@ -32,6 +32,18 @@ TEST(MarkerId, OtherTextsAreNoMarker) {
     EXPECT_FALSE(marker_name_in(text)) << text;
 }
 
+TEST(MarkerId, ANumberThatNoFamilyHasIsAFaultThatSaysWhichTheyHave) {
+  const std::vector<MarkerFamily> two{MarkerFamily::tag36h11, MarkerFamily::tag25h9};
+  EXPECT_EQ(number_fault(586, two), "");
+  EXPECT_EQ(number_fault(587, two), "36h11 has 0 to 586, 25h9 has 0 to 34");
+  EXPECT_EQ(marker_name_fault("tag 2114"), "");
+  EXPECT_EQ(marker_name_fault("tag 2115"),
+            "there is no such tag: 36h11 has 0 to 586, 25h9 has 0 to 34, standard41h12 has 0 to 2114");
+  EXPECT_EQ(marker_name_fault("tag 25h9 34"), "");
+  EXPECT_EQ(marker_name_fault("tag 25h9 35"), "there is no such tag: 25h9 has 0 to 34");
+  EXPECT_EQ(marker_name_fault("nearest dock"), "") << "no tag's name";
+}
+
 TEST(MarkerId, FindsItsLandmarkInAGraph) {
   LandmarkGraph graph;
   const LandmarkId other = graph.add(tag(MarkerFamily::tag25h9, 7));

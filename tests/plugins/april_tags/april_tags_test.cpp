@@ -124,12 +124,12 @@ TEST(AprilTags, FindsEachFamilyThatIsAskedForAndNoOther) {
     const Pose2 T_map_robot = studio.stand(1.5, 20.0, 0.0);
     const CameraImage image = studio.picture_from(T_map_robot);
     Config config;
-    config.families = {"36h11", "25h9", "standard41h12"};
+    config.families.assign(std::begin(kMarkerFamilies), std::end(kMarkerFamilies));
     const std::vector<MarkerSighting> seen = seen_in(image, studio.camera, config);
     ASSERT_EQ(seen.size(), 1U) << name_of(marker.family);
     EXPECT_EQ(seen[0].marker, marker);
     EXPECT_LT(studio.error_of(seen[0].pose, T_map_robot).head<2>().norm(), 0.03);
-    std::erase(config.families, std::string(name_of(marker.family)));
+    std::erase(config.families, marker.family);
     EXPECT_TRUE(seen_in(image, studio.camera, config).empty()) << name_of(marker.family);
   }
 }
@@ -139,7 +139,7 @@ TEST(AprilTags, FindsNothingInPicturesWithoutTags) {
   studio.remove_tag();
   studio.camera.noise_ratio = 0.1;
   Config config;
-  config.families = {"36h11", "25h9", "standard41h12"};
+  config.families.assign(std::begin(kMarkerFamilies), std::end(kMarkerFamilies));
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     EXPECT_TRUE(
         seen_in(studio.picture_from({2.0, 2.0, radians(70.0 * static_cast<double>(seed))}, seed), studio.camera, config)
@@ -169,16 +169,27 @@ TEST(AprilTags, IgnoresPicturesThatTheRobotFileDoesNotHave) {
   EXPECT_TRUE(detector.detect({&image, 1}, Budget{}).empty());
 }
 
-TEST(AprilTags, AnUnknownFamilyNamesTheNearest) {
-  Config config;
-  config.families = {"36h12"};
+std::string error_of(const std::string& settings) {
   try {
-    (void)families_of(config);
-    FAIL() << "nothing was thrown";
+    const AprilTags detector(load_config<Config>(parse_config_text(settings, "m.yaml"), "april_tags"), {});
   } catch (const ConfigError& error) {
-    EXPECT_EQ(error.sentence(),
-              "families: unknown family \"36h12\" (did you mean \"36h11\"?); known are: 36h11, 25h9, standard41h12");
+    return error.place().file.empty() ? error.sentence() : error.what();
   }
+  return "none";
+}
+
+TEST(AprilTags, AnUnknownFamilyNamesTheNearestAtItsPlace) {
+  EXPECT_EQ(error_of("families: [25h9, 36h12]"),
+            "m.yaml:1:18: families must be one of 36h11, 25h9, standard41h12, found \"36h12\" (did you mean "
+            "\"36h11\"?)");
+  EXPECT_EQ(error_of("families: []"), "m.yaml:1:11: families must name at least one of 36h11, 25h9, standard41h12");
+}
+
+TEST(AprilTags, SizesAreOfTagsThatThereAre) {
+  EXPECT_EQ(error_of("sizes: [{first: 5, last: 586, size_m: 0.1}]"), "none");
+  EXPECT_EQ(error_of("sizes: [{first: 5, last: 587, size_m: 0.1}]"),
+            "sizes: 5 to 587: there are no such tags: 36h11 has 0 to 586");
+  EXPECT_EQ(error_of("sizes: [{family: 25h9, first: 9, last: 5, size_m: 0.1}]"), "sizes: 9 to 5: last is below first");
 }
 
 }  // namespace

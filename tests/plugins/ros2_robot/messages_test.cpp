@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/plugins/common/pictures/written_pictures.hpp"
+
 namespace cairn::ros2_robot {
 namespace {
 
@@ -59,6 +61,29 @@ TEST(Messages, OfTheWireAreReadFieldByField) {
   field.magnetic_field = {1e-5, 2e-5, 3e-5};
   EXPECT_EQ(message_of(field).x_t, 1e-5);
   EXPECT_EQ(message_of(field).y_t, 2e-5);
+}
+
+TEST(Messages, PicturesAreMadeGrey) {
+  char encoding[] = "bgr8";
+  std::uint8_t pixels[] = {0, 0, 200, 200, 0, 0};
+  Image image{};
+  image.width = 2;
+  image.height = 1;
+  image.encoding = encoding;
+  image.step = 6;
+  image.data._buffer = pixels;
+  image.data._length = 6;
+  EXPECT_EQ(*picture_of(image).grey, (std::vector<std::uint8_t>{60, 23})) << "a red one and a blue one";
+  image.data._length = 5;
+  EXPECT_THROW((void)picture_of(image), std::runtime_error);
+  EXPECT_THROW((void)picture_of(CompressedImage{}), std::runtime_error);
+
+  std::string jpeg = written_pictures::jpeg(8, 8, std::vector<std::uint8_t>(64, 90));
+  CompressedImage packed{};
+  packed.data._buffer = reinterpret_cast<std::uint8_t*>(jpeg.data());
+  packed.data._length = static_cast<std::uint32_t>(jpeg.size());
+  EXPECT_EQ(picture_of(packed).width_px, 8);
+  EXPECT_NEAR(picture_of(packed).grey->at(20), 90, 2);
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ const std::map<std::string, const dds_topic_descriptor_t*>& types() {
       {"sensor_msgs/MagneticField", &sensor_msgs_msg_dds__MagneticField__desc},
       {"sensor_msgs/Imu", &sensor_msgs_msg_dds__Imu__desc},
       {"sensor_msgs/BatteryState", &sensor_msgs_msg_dds__BatteryState__desc},
+      {"sensor_msgs/Image", &sensor_msgs_msg_dds__Image__desc},
+      {"sensor_msgs/CompressedImage", &sensor_msgs_msg_dds__CompressedImage__desc},
       {"visualization_msgs/MarkerArray", &visualization_msgs_msg_dds__MarkerArray__desc},
   };
   return all;

@@ -14,6 +14,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -112,6 +113,27 @@ TEST(MarkerMission, ACategoryThatIsNoListIsRefusedWithItsPlace) {
   const Finished run = run_cairn({"mission", "check", mission.string()});
   EXPECT_NE(run.exit_status, 0);
   EXPECT_THAT(run.out + run.err, HasSubstr("categories.dock: the id 7 is of category hall end already"));
+}
+
+TEST(MarkerMission, TagsThatCannotBeAreFoundByTheCheckWithTheirPlaces) {
+  const auto out = fresh_folder("markers_check");
+  const std::filesystem::path mission = tagged_home(out);
+  const std::string good = text_of_file(mission);
+  const auto found_with = [&](const std::string& from, const std::string& to) {
+    write_text(mission, replaced(good, from, to));
+    const Finished check = run_cairn({"mission", "check", mission.string()});
+    EXPECT_NE(check.exit_status, 0) << to;
+    return check.out + check.err;
+  };
+  const std::string families = found_with("size_m: 0.16", "families: [36h12]");
+  EXPECT_THAT(families, HasSubstr("tagged_home.yaml:15:45: families must be one of 36h11, 25h9, standard41h12"));
+  EXPECT_THAT(families, Not(HasSubstr("no template"))) << "nearest hall end";
+  EXPECT_THAT(found_with("size_m: 0.16", "sizes: [{first: 500, last: 600, size_m: 0.1}]"),
+              HasSubstr("tagged_home.yaml:15:13: sizes: 500 to 600: there are no such tags: 36h11 has 0 to 586"));
+  EXPECT_THAT(
+      found_with("dock: [7]", "dock: [587]"),
+      HasSubstr("tagged_home.yaml:16:41: categories.dock: there is no tag with the id 587: 36h11 has 0 to 586"));
+  EXPECT_THAT(found_with("goto: tag 7", "goto: tag 9999"), HasSubstr("landmark: \"tag 9999\": there is no such tag"));
 }
 
 }  // namespace

@@ -80,6 +80,24 @@ class ScriptedDetector : public Detector {
   int shown = 0;
 };
 
+// Tag 7 hangs 4 m ahead of where the odometry begins. Each picture shows it from where the robot was then.
+class TagSevenDetector : public MarkerDetector {
+ public:
+  std::vector<MarkerSighting> detect(std::span<const CameraImage> images, const Budget&) override {
+    std::vector<MarkerSighting> sightings;
+    for (const CameraImage& image : images) {
+      MarkerSighting& sighting = sightings.emplace_back();
+      sighting.marker.number = 7;
+      sighting.stamp_s = image.stamp_s + stamps_late_s;
+      sighting.pose.T_robot_marker = inverse(odometry_at(image.stamp_s)) * Pose2{4.0, 0.5, radians(180.0)};
+      sighting.pose.covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-3).asDiagonal();
+    }
+    return sightings;
+  }
+  static Pose2 odometry_at(double stamp_s) { return {0.5 * stamp_s, 0.0, 0.0}; }
+  double stamps_late_s = 0.0;
+};
+
 Matching square_at(double x_m) {
   Matching matching;
   matching.degrees = {{"square", 0.9, 0.0, {x_m, 1.0}}};
@@ -237,6 +255,32 @@ TEST_F(PerceptionTest, AMapOfAPastThatWasCorrectedIsDrawnAnewAtTheCorrectedPoses
   EXPECT_NEAR(perception().tracker().driven_path().front().x_m, 1.0 + 0.6, 1e-12);
 }
 
+TEST_F(PerceptionTest, TagsThatMoveWithACorrectedPastAreReportedOnce) {
+  mission_.config.markers.emplace();
+  const auto correcting = std::make_shared<CorrectingLocalizer>();
+  built_.localizer = correcting;
+  built_.marker_detector = std::make_shared<TagSevenDetector>();
+  (void)perception().begin();
+  for (int i = 0; i < 20; ++i) {
+    Observation seen;
+    seen.stamp_s = 0.1 * i;
+    seen.T_odom_robot = TagSevenDetector::odometry_at(seen.stamp_s);
+    seen.images.resize(1);
+    seen.images[0].stamp_s = seen.stamp_s;
+    perception().see_markers(seen);
+    perception().map(seen, perception().localize(seen));
+    (void)perception().recognise({}, seen.stamp_s, seen.markers);
+  }
+  ASSERT_EQ(perception().tracker().graph().landmarks().size(), 1U);
+  correcting->correct(0.5);
+  ASSERT_TRUE(perception().finish());
+  (void)perception().redraw(std::make_shared<CountingMapper>());
+  const std::vector<Event> events = perception().take_corrected_landmarks();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_NEAR(std::get<LandmarkChanged>(events[0]).landmark.T_map_landmark.x_m, 4.0 + 1.0 + 0.52, 0.02);
+  EXPECT_TRUE(perception().take_corrected_landmarks().empty());
+}
+
 TEST_F(PerceptionTest, TheLastCorrectionsAreAskedForUntilNothingIsLeft) {
   const auto correcting = std::make_shared<CorrectingLocalizer>();
   built_.localizer = correcting;
@@ -258,6 +302,37 @@ TEST_F(PerceptionTest, PosesOfALocalizerThatNeverCorrectsAnyAreRecordedWhereThey
   EXPECT_FALSE(perception().finish());
   ASSERT_EQ(perception().past().size(), 1U);
   EXPECT_EQ(perception().past().poses().front().T_map_robot.x_m, 1.0);
+}
+
+// Where tag 7 is in the map by pictures that are 0.2 s old, of a robot that drives 0.5 m/s.
+class OldPicturesTest : public PerceptionTest {
+ protected:
+  double tag_x_m(double stamps_late_s) {
+    mission_.config.markers.emplace();
+    const auto tags = std::make_shared<TagSevenDetector>();
+    tags->stamps_late_s = stamps_late_s;
+    built_.marker_detector = tags;
+    (void)perception().begin();
+    for (int i = 0; i < 20; ++i) {
+      Observation seen;
+      seen.stamp_s = 0.1 * i;
+      seen.T_odom_robot = TagSevenDetector::odometry_at(seen.stamp_s);
+      if (i >= 2) seen.images.resize(1);
+      for (CameraImage& image : seen.images) image.stamp_s = seen.stamp_s - 0.2;
+      perception().see_markers(seen);
+      perception().map(seen, perception().localize(seen));
+      (void)perception().recognise({}, seen.stamp_s, seen.markers);
+    }
+    const Landmark* const tag = perception().tracker().graph().find_by_name("tag 7");
+    return tag == nullptr ? std::numeric_limits<double>::quiet_NaN() : tag->T_map_landmark.x_m - localizer_->offset_m;
+  }
+};
+TEST_F(OldPicturesTest, ShowATagWhereItIs) {
+  EXPECT_NEAR(tag_x_m(0.0), 4.0, 0.02);
+}
+
+TEST_F(OldPicturesTest, ShowItElsewhereWhenTheyAreTakenForNew) {
+  EXPECT_NEAR(tag_x_m(0.2), 4.1, 0.02) << "the robot has driven 0.1 m meanwhile";
 }
 
 TEST_F(PerceptionTest, WithoutADetectorNothingIsRecognised) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "framework/contracts/world_view.hpp"
@@ -94,6 +95,17 @@ TEST_F(ProgressLineTest, AStallOfTheWholeProcessBlamesNoStage) {
   EXPECT_EQ(out_.str(),
             "    3.0 s  the robot was stopped: this whole process had stood still for 1.25 s (stopped by a signal, or "
             "without a processor); it goes on\n");
+}
+
+TEST_F(ProgressLineTest, AStageThatStallsInEachTickIsReportedOnceAndWhenItIsMuchWorse) {
+  ProgressLine line(out_, false, [&] { return status_; });
+  for (const double for_s : {0.3, 0.31, 0.4, 0.3, 0.7, 0.3, 1.3})
+    publish(line, Stalled{"marker detector", "april_tags", for_s}, 3.0);
+  publish(line, Stalled{"detector", "template_matcher", 0.3}, 4.0);
+  const std::string text = out_.str();
+  EXPECT_EQ(std::ranges::count(text, '\n'), 3) << text;
+  EXPECT_THAT(text, AllOf(HasSubstr("for 0.30 s (in stage marker detector"), HasSubstr("for 0.70 s"),
+                          HasSubstr("4.0 s  the robot was stopped")));
 }
 
 TEST_F(ProgressLineTest, ALandmarkIsReportedWhenItIsFoundAndWhenItsCategoryChanges) {

@@ -64,6 +64,22 @@ TEST(PlaceNames, ALongListOfLandmarksIsCut) {
   EXPECT_EQ(find_landmarks("nearest square", graph).place.landmarks.size(), 13U);
 }
 
+TEST(PlaceNames, ATagThatCannotBeIsRefused) {
+  const auto error_of = [](const std::string& text) -> std::string {
+    const ConfigValue value = parse_config_text("at: " + text, "m.yaml").entries.at(0).value;
+    try {
+      (void)to_place_name(value, "at");
+      (void)to_landmark_name(value, "at");
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(error_of("tag 586"), "none");
+  EXPECT_EQ(error_of("tag 36h11 587"), "m.yaml:1:5: at: \"tag 36h11 587\": there is no such tag: 36h11 has 0 to 586");
+  EXPECT_THAT(error_of("tag 9999"), HasSubstr("standard41h12 has 0 to 2114"));
+}
+
 TEST(PlaceNames, ABareCategoryIsItsNearestLandmarkUnlessALandmarkIsCalledSo) {
   LandmarkGraph graph;
   for (const char* category : {"square", "circle", "square"}) {
