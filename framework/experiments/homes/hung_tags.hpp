@@ -26,7 +26,8 @@ struct HungTagsConfig {
 };
 
 // Tags of the family 36h11 with numbers of their own, on faces by their length, 0.2 to 0.6 m above the floor, half a
-// metre apart, with half a metre of room before each. Fewer where there is no place for more.
+// metre apart, with half a metre of room before the middle of each: furniture beside it may hide a part. Fewer where
+// there is no place for more.
 [[nodiscard]] std::vector<WorldTag> hung_tags(const HungTagsConfig& config, const std::vector<HomeFace>& faces,
                                               const std::vector<HomeObstacle>& obstacles, std::uint64_t seed);
 

@@ -81,7 +81,7 @@ TEST(RandomHome, TagsHangOnFacesWithRoomBeforeThemAndChangeNothingElse) {
     const Home home = random_home(config, seed);
     EXPECT_EQ(home.world_yaml.find(random_home({}, seed).world_yaml), 0U) << "seed " << seed;
     const World world = loaded(home);
-    const TrueSpace space(world, 0.005);
+    const TrueSpace space(world, 0.001);
     ASSERT_EQ(world.tags.size(), 10U) << "seed " << seed;
     std::set<MarkerId> numbers;
     for (const WorldTag& tag : world.tags) {

@@ -8,7 +8,7 @@ namespace cairn {
 namespace {
 
 // A room of 8 x 8 m with a tag in the middle of its right wall.
-struct Room : testing::Test {
+struct Room : ::testing::Test {
   Room() : world(testing::room(8.0, 8.0)) {
     world.tags = {{{MarkerFamily::tag36h11, 7}, {8.0, 4.0, radians(180.0)}, 0.3, 0.16}};
   }

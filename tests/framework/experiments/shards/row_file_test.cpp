@@ -90,7 +90,7 @@ TEST(RowFile, WhatIsNoRowIsRefusedWithAReason) {
   EXPECT_EQ(refusal_of(text.substr(0, text.size() / 2)), "it is damaged");
   EXPECT_EQ(refusal_of("[]"), "it is damaged");
   EXPECT_EQ(refusal_of(""), "it is damaged");
-  EXPECT_THAT(refusal_of(R"({"format": "cairn experiment row 2", "experiment": "0123", "row": [1, 2]})"),
+  EXPECT_THAT(refusal_of(R"({"format": "cairn experiment row 3", "experiment": "0123", "row": [1, 2]})"),
               testing::HasSubstr("another number of values"));
 }
 
