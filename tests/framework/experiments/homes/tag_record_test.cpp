@@ -2,16 +2,21 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/plugins/simulated_robot/test_worlds.hpp"
-
 namespace cairn {
 namespace {
+
+World hall_of_8_m() {
+  World world;
+  world.max_m = {8.0, 8.0};
+  world.walls = {{{{0.0, 0.0}, {8.0, 0.0}, {8.0, 8.0}, {0.0, 8.0}, {0.0, 0.0}}, Surface::rough}};
+  return world;
+}
 
 constexpr double kTolerance_m = 0.5;
 
 // A room of 8 x 8 m with a tag in the middle of its right wall, and one behind the robot.
-struct Tagged : ::testing::Test {
-  Tagged() : world(testing::room(8.0, 8.0)) {
+struct Tagged : testing::Test {
+  Tagged() : world(hall_of_8_m()) {
     world.tags = {{{MarkerFamily::tag36h11, 7}, {8.0, 4.0, radians(180.0)}, 0.3, 0.16},
                   {{MarkerFamily::tag36h11, 8}, {0.0, 4.0, 0.0}, 0.3, 0.16}};
     robot.cameras.emplace_back();

@@ -2,16 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/plugins/simulated_robot/test_worlds.hpp"
-
 namespace cairn {
 namespace {
 
+World room_of_8_m() {
+  World world;
+  world.max_m = {8.0, 8.0};
+  world.walls = {{{{0.0, 0.0}, {8.0, 0.0}, {8.0, 8.0}, {0.0, 8.0}, {0.0, 0.0}}, Surface::rough}};
+  return world;
+}
+
 // A room of 8 x 8 m with a tag in the middle of its right wall.
-struct Room : ::testing::Test {
-  Room() : world(testing::room(8.0, 8.0)) {
-    world.tags = {{{MarkerFamily::tag36h11, 7}, {8.0, 4.0, radians(180.0)}, 0.3, 0.16}};
-  }
+struct Room : testing::Test {
+  Room() : world(room_of_8_m()) { world.tags = {{{MarkerFamily::tag36h11, 7}, {8.0, 4.0, radians(180.0)}, 0.3, 0.16}}; }
 
   [[nodiscard]] std::optional<TagSighted> seen_from(double x_m, double y_m, double heading_deg,
                                                     const SightLimits& limits = {}) const {
