@@ -88,6 +88,7 @@ struct Listeners {
     if (config.experiment == ExperimentKind::homes)
       home.emplace(config.homes, random_home(config.homes, static_cast<std::uint64_t>(mission.config.seed)),
                    *mission.world, mission.robot.radius_m);
+    if (home && !mission.world->tags.empty() && !mission.robot.cameras.empty()) tags.emplace(*mission.world);
   }
   void subscribe_to(MissionRunner& runner) {
     runner.subscribe(report);
@@ -96,6 +97,7 @@ struct Listeners {
     runner.subscribe(held_out);
     runner.subscribe(trial);
     if (home) runner.subscribe(*home);
+    if (tags) runner.subscribe(*tags);
   }
 
   RunReport report;
@@ -104,6 +106,7 @@ struct Listeners {
   HeldOutReadings held_out;
   TrialRecord trial;
   std::optional<HomeRecord> home;
+  std::optional<TagRecord> tags;
 };
 
 // What the experiment's kind asks of a run that has ended.
@@ -129,6 +132,8 @@ void measure(const ExperimentConfig& config, const Mission& mission, const Missi
         judge_trial(config.trials, {mission, row.result, listeners.trial, runner.grid()}, listeners.report.contacts());
   row.contacts = listeners.report.contacts();
   if (listeners.home && !was_cancelled) row.home = listeners.home->verdict(row.result, row.contacts);
+  if (listeners.tags && !was_cancelled)
+    row.tags = listeners.tags->verdict(runner.graph(), config.homes.tag_tolerance_m);
   row.step_rad = mission.template_settings.step_rad;
   if (config.experiment == ExperimentKind::orbit)
     row.orbit =

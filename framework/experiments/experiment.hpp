@@ -10,6 +10,7 @@
 
 #include "framework/experiments/config.hpp"
 #include "framework/experiments/homes/record.hpp"
+#include "framework/experiments/homes/tag_record.hpp"
 #include "framework/experiments/jobs.hpp"
 #include "framework/experiments/map_quality.hpp"
 #include "framework/experiments/recognition/curves.hpp"
@@ -43,6 +44,7 @@ struct ExperimentRow {
   std::vector<TimedContact> contacts;    // by the truth, where it is known
   std::optional<TrialVerdict> trial;     // of an experiment of trials
   std::optional<HomeVerdict> home;       // of an experiment of homes
+  std::optional<TagVerdict> tags;        // where tags hang in them and the robot has a camera
   StageTime tick;                        // wall clock of the host's ticks, all but the sensor's part
   double step_rad = 0.0;                 // between the orientations of the templates
   double wall_s = 0.0;

@@ -146,6 +146,18 @@ ordered_json json_of_home(const HomeVerdict& home) {
   return json;
 }
 
+ordered_json json_of_tags(const TagVerdict& tags) {
+  return {{"hung", tags.hung},
+          {"in_sight", tags.in_sight},
+          {"found", tags.found},
+          {"found_besides", tags.found_besides},
+          {"false_landmarks", tags.false_landmarks},
+          {"sightings", tags.sightings},
+          {"false_sightings", tags.false_sightings},
+          {"position_error_m", tags.position_error_m},
+          {"direction_error_deg", tags.direction_error_deg}};
+}
+
 std::string cell_text(const Estimate& estimate) {
   return " " + text_of(estimate, 4) + " |";
 }
@@ -217,6 +229,7 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (row.trial) json["trial"] = json_of_trial(*row.trial);
   if (row.home) json["home"] = json_of_home(*row.home);
+  if (row.tags) json["tags"] = json_of_tags(*row.tags);
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
     if (measure.is_known(row)) json[measure.name] = measure.of(row);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "framework/experiments/homes/hung_tags.hpp"
 #include "maps/base/portable_random.hpp"
 
 namespace cairn {
@@ -20,6 +22,7 @@ constexpr double kBeforeDoor_m = 0.9;
 struct Piece {
   std::string outline;
   HomeRoom box;
+  bool is_round = false;
 };
 
 // A side that two rooms share, before their walls are taken off.
@@ -33,7 +36,8 @@ struct SharedSide {
 
 class HomeDrawing {
  public:
-  HomeDrawing(const HomesConfig& config, std::uint64_t seed) : config_(config), layout_(seed, 1), things_(seed, 2) {}
+  HomeDrawing(const HomesConfig& config, std::uint64_t seed)
+      : config_(config), seed_(seed), layout_(seed, 1), things_(seed, 2) {}
 
   [[nodiscard]] Home draw() {
     const double area_m2 = layout_.between(config_.min_area_m2, config_.max_area_m2);
@@ -214,7 +218,7 @@ class HomeDrawing {
         const Point middle_m = 0.5 * (box.min_m + box.max_m);
         return Piece{
             fmt::format("circle_diameter_m: {:.3f}, at_m: [{:.3f}, {:.3f}]", size_m.x(), middle_m.x(), middle_m.y()),
-            box};
+            box, true};
       }
       return Piece{fmt::format("polygon_m: [[{0:.3f}, {1:.3f}], [{2:.3f}, {1:.3f}], [{2:.3f}, {3:.3f}], [{0:.3f}, "
                                "{3:.3f}]]",
@@ -249,8 +253,8 @@ class HomeDrawing {
     home_.start_deg = std::floor(things_.between(0.0, 360.0));
   }
 
-  // The side of a room between its walls, with its doors left out.
-  void add_side(std::string& text, std::size_t room, int axis, bool is_high) const {
+  // The side of a room between its walls, with its doors left out; the room lies to the left.
+  [[nodiscard]] std::vector<HomeFace> side_of(std::size_t room, int axis, bool is_high) const {
     const HomeRoom& box = home_.rooms[room];
     const double at_m = is_high ? box.max_m[axis] : box.min_m[axis];
     std::vector<std::pair<double, double>> gaps;
@@ -263,10 +267,24 @@ class HomeDrawing {
     std::ranges::sort(gaps);
     double from_m = box.min_m[1 - axis];
     gaps.emplace_back(box.max_m[1 - axis], 0.0);
+    std::vector<HomeFace> faces;
+    faces.reserve(gaps.size());
     for (const auto& [gap_from_m, gap_to_m] : gaps) {
-      text += axis == 0 ? line({at_m, from_m}, {at_m, gap_from_m}) : line({from_m, at_m}, {gap_from_m, at_m});
+      HomeFace face{{at_m, from_m}, {at_m, gap_from_m}};
+      if (axis == 1) face = {{from_m, at_m}, {gap_from_m, at_m}};
+      if (is_high == (axis == 1)) std::swap(face.a_m, face.b_m);
+      faces.push_back(face);
       from_m = gap_to_m;
     }
+    return faces;
+  }
+
+  [[nodiscard]] std::vector<HomeFace> sides() const {
+    std::vector<HomeFace> all;
+    for (std::size_t i = 0; i < home_.rooms.size(); ++i)
+      for (const int axis : {0, 1})
+        for (const bool is_high : {false, true}) std::ranges::copy(side_of(i, axis, is_high), std::back_inserter(all));
+    return all;
   }
 
   [[nodiscard]] static std::string line(const Point& from_m, const Point& to_m) {
@@ -274,12 +292,41 @@ class HomeDrawing {
                        from_m.y(), to_m.x(), to_m.y());
   }
 
+  // On walls and on flat furniture.
+  [[nodiscard]] std::string tags_yaml() const {
+    if (config_.tags == 0) return {};
+    std::vector<HomeFace> faces = sides();
+    std::vector<HomeObstacle> obstacles;
+    obstacles.reserve(pieces_.size());
+    for (const Piece& piece : pieces_) {
+      const auto& [min_m, max_m] = piece.box;
+      obstacles.push_back({min_m, max_m});
+      if (piece.is_round) continue;
+      const Point right_m(max_m.x(), min_m.y());
+      const Point left_m(min_m.x(), max_m.y());
+      for (const HomeFace& face :
+           {HomeFace{right_m, min_m}, HomeFace{max_m, right_m}, HomeFace{left_m, max_m}, HomeFace{min_m, left_m}})
+        if (has_room_before(face)) faces.push_back(face);
+    }
+    std::string text = "tags:\n";
+    for (const WorldTag& tag : hung_tags({config_.tags, config_.tag_size_m}, faces, obstacles, seed_))
+      text += fmt::format("  - {{id: {}, at_m: [{:.3f}, {:.3f}], facing_deg: {:g}, height_m: {:.3f}, size_m: {:g}}}\n",
+                          tag.marker.number, tag.T_map_tag.x_m, tag.T_map_tag.y_m,
+                          std::round(degrees(tag.T_map_tag.theta_rad)), tag.height_m, tag.size_m);
+    return text;
+  }
+
+  // Furniture that stands against a wall shows it no face.
+  [[nodiscard]] bool has_room_before(const HomeFace& face) const {
+    const Point along = (face.b_m - face.a_m).normalized();
+    const Point p_m = 0.5 * (face.a_m + face.b_m) + 0.3 * Point(-along.y(), along.x());
+    return std::ranges::any_of(home_.rooms, [&](const HomeRoom& room) { return room.contains(p_m); });
+  }
+
   [[nodiscard]] std::string yaml() const {
     std::string text = fmt::format("# A random home: {} rooms, {} doors.\n", home_.rooms.size(), home_.doors.size());
     text += fmt::format("bounds_m: [[0, 0], [{:.3f}, {:.3f}]]\nwalls:\n", size_m_.x(), size_m_.y());
-    for (std::size_t i = 0; i < home_.rooms.size(); ++i)
-      for (const int axis : {0, 1})
-        for (const bool is_high : {false, true}) add_side(text, i, axis, is_high);
+    for (const HomeFace& side : sides()) text += line(side.a_m.cwiseMin(side.b_m), side.a_m.cwiseMax(side.b_m));
     for (std::size_t i = 0; i < home_.doors.size(); ++i)  // the jambs
       for (const double side : {-0.5, 0.5}) {
         const HomeDoor& door = home_.doors[i];
@@ -291,10 +338,12 @@ class HomeDrawing {
       }
     if (!pieces_.empty()) text += "objects:\n";
     for (const Piece& piece : pieces_) text += "  - {" + piece.outline + ", surface: rough}\n";
+    text += tags_yaml();
     return text;
   }
 
   HomesConfig config_;
+  std::uint64_t seed_;
   PortableRandom layout_;
   PortableRandom things_;
   Point size_m_{0.0, 0.0};
@@ -321,6 +370,10 @@ void HomesConfig::describe(Fields<HomesConfig>& fields) {
   fields.number("wall_m", &C::wall_m, {0.0, 0.5}, "m", "thickness of the walls");
   fields.integer("max_furniture", &C::max_furniture, {0.0, 20.0}, "at most so many pieces of furniture in a room");
   fields.number("gap_m", &C::gap_m, {0.1, 5.0}, "m", "free space between furniture, and before walls");
+  fields.integer("tags", &C::tags, {0.0, 100.0}, "so many printed tags (AprilTags 36h11) hang on walls and furniture");
+  fields.number("tag_size_m", &C::tag_size_m, {0.02, 1.0}, "m", "side of their black squares");
+  fields.number("tag_tolerance_m", &C::tag_tolerance_m, {0.0, 10.0}, "m",
+                "a tag of the map that is further from the truth is a false one");
   fields.number("fast_mps", &C::fast_mps, {0.0, 10.0}, "m/s", "a contact faster than this is a fast one");
   fields.number("beyond_door_m", &C::beyond_door_m, {0.0, 2.0}, "m",
                 "a room is entered when the robot's centre is this far inside its walls");

@@ -23,9 +23,12 @@ struct HomesConfig {
   double wall_m = 0.1;
   int max_furniture = 3;
   double gap_m = 0.7;
+  int tags = 0;
+  double tag_size_m = 0.16;
   // How a run is judged.
   double fast_mps = 0.05;
   double beyond_door_m = 0.0;
+  double tag_tolerance_m = 0.5;
   static void describe(Fields<HomesConfig>& fields);
 };
 
@@ -59,7 +62,7 @@ struct Home {
 
 // The same home for the same seed. Every room is joined to every other through doors; each door has 0.9 m of room
 // before it on both sides, furniture stands against a wall or free with gap_m around it. Some homes lack a corner: an
-// L.
+// L. Tags change nothing else of a home.
 [[nodiscard]] Home random_home(const HomesConfig& config, std::uint64_t seed);
 
 }  // namespace cairn

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "cairn experiment row 2";
+constexpr const char* kFormat = "cairn experiment row 3";
 
 template <class T, class Of>
 concept Is = std::same_as<std::remove_const_t<T>, Of>;
@@ -72,6 +72,10 @@ void visit(auto& file, Is<HomeVerdict> auto& v) {
   file(v.rooms, v.entered, v.area_m2, v.known_ratio, v.known_90_s, v.contacts, v.fast_contacts, v.said_success, v.end,
        v.not_entered);
 }
+void visit(auto& file, Is<TagVerdict> auto& v) {
+  file(v.hung, v.in_sight, v.found, v.found_besides, v.false_landmarks, v.sightings, v.false_sightings,
+       v.position_error_m, v.direction_error_deg);
+}
 void visit(auto& file, Is<StageTime> auto& v) {
   file(v.stage, v.module, v.count, v.median_us, v.p99_us, v.worst_us, v.total_s, v.own_s);
 }
@@ -81,8 +85,8 @@ void visit(auto& file, Is<MissionResult> auto& v) {
 }
 void visit(auto& file, Is<ExperimentRow> auto& v) {
   file(v.mission, v.variant, v.seed, v.result, v.score, v.worst_error_m, v.quality, v.held_out,
-       v.held_out_log_likelihood, v.places, v.orbit, v.verdicts, v.ring, v.sweeps, v.contacts, v.trial, v.home, v.tick,
-       v.step_rad, v.wall_s, v.detector_wall_s, v.gave_up);
+       v.held_out_log_likelihood, v.places, v.orbit, v.verdicts, v.ring, v.sweeps, v.contacts, v.trial, v.home, v.tags,
+       v.tick, v.step_rad, v.wall_s, v.detector_wall_s, v.gave_up);
 }
 
 template <class T>

@@ -98,6 +98,25 @@ TEST(MarkerMission, AKidnappedRobotKnowsWhereItIsByATag) {
   EXPECT_LT(summary["pose_error"]["worst_m"].get<double>(), 0.2);
 }
 
+// Without the tag the error along the corridor stays: its walls say nothing of it.
+TEST(MarkerMission, ATagClosesALoopThatTheWallsOfACorridorLeaveOpen) {
+  const auto out = fresh_folder("markers_ring");
+  const std::string mission = source_folder() + "/config/missions/ring_corridor.yaml";
+  const std::string world = text_of_file(source_folder() + "/config/worlds/ring_corridor.yaml");
+  write_text(out / "bare.yaml", world.substr(0, world.find("tags:")));
+  const auto error_m = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"run", mission, "--out", (out / name).string(), "--json", "--seed", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished run = run_cairn(words);
+    EXPECT_EQ(run.exit_status, 0) << run.err << run.out;
+    return json::parse(run.out)["pose_error"]["last_m"].get<double>();
+  };
+  const double bare_m = error_m("bare", {"--set", "world=" + (out / "bare.yaml").string()});
+  const double tagged_m = error_m("tagged", {});
+  EXPECT_GT(bare_m, 0.35) << "the corridor's walls close it by themselves: it shows nothing";
+  EXPECT_LT(tagged_m, 0.25);
+}
+
 TEST(MarkerMission, ARobotWithoutCamerasSeesNoTags) {
   const auto out = fresh_folder("markers_blind");
   const Finished run = run_cairn({"run", tagged_home(out).string(), "--out", out.string(), "--set",

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "framework/experiments/trials/true_space.hpp"
 #include "framework/files/world_file.hpp"
 #include "tests/framework/config/config_test_support.hpp"
@@ -69,6 +71,28 @@ TEST(RandomHome, NothingLeadsOutOfIt) {
                              });
       ASSERT_TRUE(is_inside) << p.transpose() << " of seed " << seed;
     }
+  }
+}
+
+TEST(RandomHome, TagsHangOnFacesWithRoomBeforeThemAndChangeNothingElse) {
+  HomesConfig config;
+  config.tags = 10;
+  for (std::uint64_t seed = 1001; seed < 1031; ++seed) {
+    const Home home = random_home(config, seed);
+    EXPECT_EQ(home.world_yaml.find(random_home({}, seed).world_yaml), 0U) << "seed " << seed;
+    const World world = loaded(home);
+    const TrueSpace space(world, 0.001);
+    ASSERT_EQ(world.tags.size(), 10U) << "seed " << seed;
+    std::set<MarkerId> numbers;
+    for (const WorldTag& tag : world.tags) {
+      numbers.insert(tag.marker);
+      EXPECT_FALSE(space.has_room(tag.T_map_tag.position())) << "it hangs in the air, seed " << seed;
+      for (const double before_m : {0.15, 0.45})
+        EXPECT_TRUE(space.has_room(tag.T_map_tag * Point(before_m, 0.0)))
+            << "tag " << tag.marker.number << " of seed " << seed << "\n"
+            << home.world_yaml;
+    }
+    EXPECT_EQ(numbers.size(), 10U);
   }
 }
 

@@ -37,6 +37,7 @@ ExperimentRow measured_row() {
   row.trial->stand = {1.5, 120.25};
   row.trial->silences = {2, 3};
   row.home = HomeVerdict{5, 4, 80.5, 0.875, std::nullopt, 1, 0, true, "all is explored", {3}};
+  row.tags = TagVerdict{10, 9, 8, 1, 0, 100, 2, {0.01, 0.02}, {0.5}};
   row.tick = {"tick", "host", 5, 1.5, 2.5, 3.5, 0.001, 0.0005};
   row.wall_s = 1.25;
   row.gave_up = true;
@@ -89,7 +90,7 @@ TEST(RowFile, WhatIsNoRowIsRefusedWithAReason) {
   EXPECT_EQ(refusal_of(text.substr(0, text.size() / 2)), "it is damaged");
   EXPECT_EQ(refusal_of("[]"), "it is damaged");
   EXPECT_EQ(refusal_of(""), "it is damaged");
-  EXPECT_THAT(refusal_of(R"({"format": "cairn experiment row 2", "experiment": "0123", "row": [1, 2]})"),
+  EXPECT_THAT(refusal_of(R"({"format": "cairn experiment row 3", "experiment": "0123", "row": [1, 2]})"),
               testing::HasSubstr("another number of values"));
 }
 
