@@ -16,7 +16,8 @@ namespace cairn::template_matcher {
 // Few of them hide nothing, being chance, nor do many: what is left would fit everywhere.
 class HiddenParts {
  public:
-  explicit HiddenParts(std::span<const LandmarkTemplate> templates);
+  // Something is a wall when it is longer than this many cells.
+  HiddenParts(std::span<const LandmarkTemplate> templates, int wall_cells);
 
   // The template without its cells that are hidden at this place; all of them where none is.
   [[nodiscard]] LandmarkTemplate seen_part(const OccupancyGrid& grid, std::size_t index, Cell at) const;
@@ -24,8 +25,9 @@ class HiddenParts {
  private:
   static constexpr int kDirections = 24;
   static constexpr int kLookedAt = 4;
+  static constexpr int kReach = 12;
   struct Outline {
-    std::array<std::array<Cell, kLookedAt>, kDirections> beyond;
+    std::array<std::array<Cell, kReach>, kDirections> beyond;
     std::array<bool, kDirections> is_there{};  // not so for outlines with a gap
     std::vector<int> directions;               // of its cells
   };
@@ -34,9 +36,11 @@ class HiddenParts {
     int count = 0;
   };
   [[nodiscard]] static Outline outline_of(const LandmarkTemplate& shape);
+  [[nodiscard]] bool is_wall_behind(const OccupancyGrid& grid, const Outline& outline, const Run& run, Cell at) const;
   [[nodiscard]] static Run closed_run(const OccupancyGrid& grid, const Outline& outline, Cell at);
 
   std::span<const LandmarkTemplate> templates_;
+  int wall_cells_;
   std::vector<Outline> outlines_;
 };
 

@@ -64,7 +64,8 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       ceilings_(ceilings_of(least_degree(rule_), rule_.mu, templates_->templates)),
       hidden_ceilings_(
           ceilings_of(config.hidden_degree > 0.0 ? config.hidden_above : 1.0, rule_.mu, templates_->templates)),
-      hidden_(templates_->templates),
+      hidden_(templates_->templates,
+              static_cast<int>(std::ceil(2.0 * templates_->largest_diameter_m() / templates_->cell_m))),
       neighbours_(*templates_) {}
 
 DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {
