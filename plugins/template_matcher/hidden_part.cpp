@@ -103,7 +103,7 @@ bool HiddenParts::is_wall_behind(const OccupancyGrid& grid, const Outline& outli
       break;
     }
   }
-  return 2 * hits >= run.count;
+  return 3 * hits >= run.count;
 }
 
 LandmarkTemplate HiddenParts::seen_part(const OccupancyGrid& grid, std::size_t index, Cell at) const {
