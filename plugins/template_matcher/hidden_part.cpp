@@ -76,8 +76,8 @@ HiddenParts::Outline HiddenParts::outline_of(const LandmarkTemplate& shape) {
 HiddenParts::Run HiddenParts::closed_run(const OccupancyGrid& grid, const Outline& outline, Cell at) {
   std::array<bool, kDirections> is_closed{};
   for (std::size_t k = 0; k < kDirections; ++k) {
-    const auto closed = std::ranges::count_if(
-        std::span(outline.beyond[k]).first(kLookedAt), [&](Cell beyond) { return grid.state(at + beyond) != CellState::free; });
+    const auto closed = std::ranges::count_if(std::span(outline.beyond[k]).first(kLookedAt),
+                                              [&](Cell beyond) { return grid.state(at + beyond) != CellState::free; });
     is_closed[k] = outline.is_there[k] && 2 * closed > kLookedAt;
   }
   Run longest;

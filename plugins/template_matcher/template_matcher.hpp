@@ -48,7 +48,7 @@ class TemplateMatcher : public Detector {
   Trigger trigger_;
   GradientField field_;  // of the current region
   FastMatcher matcher_;
-  std::vector<std::int32_t> ceilings_;  // one a template: from there on below every threshold
+  std::vector<std::int32_t> ceilings_;         // one a template: from there on below every threshold
   std::vector<std::int32_t> hidden_ceilings_;  // the same: from there on what is hidden is not weighed
   HiddenParts hidden_;
   OrientationNeighbours neighbours_;
