@@ -31,6 +31,12 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("min_above_unseen", &Config::min_above_unseen, {0.0, 1.0}, "",
                 "the best template's degree d must reach this on the scale (d - u) / (1 - u), where u is its degree "
                 "over unseen floor; 0 as in the paper");
+  fields.number(
+      "hidden_degree", &Config::hidden_degree, {0.0, 1.0}, "",
+      "cells of an outline that cannot be seen, because another thing stands close behind it, count as fitting "
+      "to this degree where they fit worse; 0: as the map shows them, as in the paper");
+  fields.number("hidden_above", &Config::hidden_above, {0.0, 1.0}, "",
+                "the same, where the whole outline fits to more than this degree");
   fields.flag("between_cells", &Config::between_cells,
               "compare categories, and place landmarks, between the cells and between the orientation steps; false: on "
               "them, as in the paper");

@@ -22,6 +22,8 @@ struct Config : TemplateSettings {
   MismatchScale mu = MismatchScale::sobel;
   double min_margin = 0.02;
   double min_above_unseen = 0.34;
+  double hidden_degree = 0.5;
+  double hidden_above = 0.54;
   bool between_cells = true;
   Degrees degrees = Degrees::all;
   Search search = Search::pruned;

@@ -29,10 +29,14 @@ int checked_coarse_cells(int coarse_cells, const TemplateSet& set) {
 }
 
 // What keeps the class from being believed has at least this degree: see is_decided().
-std::vector<std::int32_t> ceilings_of(const ScoreRule& rule, std::span<const LandmarkTemplate> templates) {
-  const double least = std::max(0.0, rule.tau_match - rule.min_margin);
+double least_degree(const ScoreRule& rule) {
+  return std::max(0.0, rule.tau_match - rule.min_margin);
+}
+
+std::vector<std::int32_t> ceilings_of(double degree, double mu, std::span<const LandmarkTemplate> templates) {
   std::vector<std::int32_t> ceilings;
-  for (const LandmarkTemplate& t : templates) ceilings.push_back(mismatch_ceiling(least, t.cells.size(), rule.mu));
+  ceilings.reserve(templates.size());
+  for (const LandmarkTemplate& t : templates) ceilings.push_back(mismatch_ceiling(degree, t.cells.size(), mu));
   return ceilings;
 }
 
@@ -57,7 +61,11 @@ TemplateMatcher::TemplateMatcher(const Config& config, std::shared_ptr<const Tem
       coarse_(checked_coarse_cells(config.coarse_cells, *templates_), config.alpha_og2),
       trigger_(config),
       matcher_(templates_->templates),
-      ceilings_(ceilings_of(rule_, templates_->templates)),
+      ceilings_(ceilings_of(least_degree(rule_), rule_.mu, templates_->templates)),
+      hidden_ceilings_(
+          ceilings_of(config.hidden_degree > 0.0 ? config.hidden_above : 1.0, rule_.mu, templates_->templates)),
+      hidden_(templates_->templates,
+              static_cast<int>(std::ceil(2.0 * templates_->largest_diameter_m() / templates_->cell_m))),
       neighbours_(*templates_) {}
 
 DetectionReport TemplateMatcher::detect(const OccupancyGrid& grid, const CellChanges& changes, const Budget& budget) {
@@ -79,7 +87,8 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   // One cell more than the templates reach, for the places around the best one.
   field_.look_at(grid, box.grown(template_reach_ + 1));
   std::vector<TemplateMatch> on_cells = search(spans);
-  const std::vector<TemplateMatch> matches = config_.between_cells ? refined(on_cells) : on_cells;
+  std::vector<TemplateMatch> matches = weighed(on_cells, grid);
+  if (config_.between_cells) matches = refined(std::move(matches), grid);
   Matching matching;
   matching.trigger = trigger;
   matching.fits_above = rule_.tau_match;
@@ -109,7 +118,8 @@ std::vector<TemplateMatch> TemplateMatcher::search(std::span<const CellSpan> reg
   std::vector<TemplateMatch> matches;
   std::size_t best = 0;  // of the category; one after the other in a set
   for (std::size_t i = 0; i < templates.size(); ++i) {
-    std::int32_t ceiling = config_.degrees == Degrees::each_template ? kUnmatched : ceilings_[i];
+    std::int32_t ceiling =
+        config_.degrees == Degrees::each_template ? kUnmatched : std::max(ceilings_[i], hidden_ceilings_[i]);
     if (config_.degrees == Degrees::all) {
       const bool is_first = i == 0 || templates[i].category != templates[best].category;
       ceiling = is_first ? kUnmatched : std::max(ceiling, ceiling_beside(matches[best], templates[best], templates[i]));
@@ -121,17 +131,43 @@ std::vector<TemplateMatch> TemplateMatcher::search(std::span<const CellSpan> reg
   return matches;
 }
 
+// On the cell: the cells that are seen there, all of them where none is hidden, and what the others count as.
+// What is hidden counts as fitting to hidden_degree, where it fits worse.
+PlaceInCell TemplateMatcher::place_of(std::size_t index, Cell at, bool between, const OccupancyGrid& grid) const {
+  const auto measured = [&](const LandmarkTemplate& shape) {
+    return between ? place_in_cell(field_, shape, at) : PlaceInCell{{0.0, 0.0}, mismatch_at(field_, shape, at)};
+  };
+  const LandmarkTemplate& whole = templates_->templates[index];
+  const PlaceInCell place = measured(whole);
+  if (mismatch_at(field_, whole, at) >= hidden_ceilings_[index]) return place;
+  const LandmarkTemplate seen = hidden_.seen_part(grid, index, at);
+  const std::size_t hidden_cells = whole.cells.size() - seen.cells.size();
+  if (hidden_cells == 0) return place;
+  PlaceInCell of_seen = measured(seen);
+  of_seen.mismatch += mismatch_ceiling(config_.hidden_degree, hidden_cells, rule_.mu);
+  return of_seen.mismatch < place.mismatch ? of_seen : place;
+}
+
+std::vector<TemplateMatch> TemplateMatcher::weighed(std::vector<TemplateMatch> matches,
+                                                    const OccupancyGrid& grid) const {
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (matches[i].mismatch < hidden_ceilings_[i])
+      matches[i].mismatch = place_of(i, matches[i].at, false, grid).mismatch;
+  return matches;
+}
+
 // Landmarks stand between the cells, and half a cell beside it costs the right category more than a broader
 // one: categories are compared where each fits best. What is too bad to matter, by the ceiling of every way to
 // ask, stays as it is, so that all ways give the same landmarks.
-std::vector<TemplateMatch> TemplateMatcher::refined(std::vector<TemplateMatch> matches) const {
+std::vector<TemplateMatch> TemplateMatcher::refined(std::vector<TemplateMatch> matches,
+                                                    const OccupancyGrid& grid) const {
   const std::vector<LandmarkTemplate>& templates = templates_->templates;
   for (std::size_t first = 0, next = 0; first < templates.size(); first = next) {
     std::size_t best = first;
     for (next = first; next < templates.size() && templates[next].category == templates[first].category; ++next)
       if (fits_better(matches[next], templates[next], matches[best], templates[best])) best = next;
     if (matches[best].mismatch >= ceilings_[best]) continue;
-    matches[best].mismatch = place_in_cell(field_, templates[best], matches[best].at).mismatch;
+    matches[best].mismatch = place_of(best, matches[best].at, true, grid).mismatch;
   }
   return matches;
 }
@@ -147,7 +183,7 @@ std::optional<Detection> TemplateMatcher::detection_of(const std::vector<Templat
   const Point cell_m = grid.centre_of(matches[best].at);
   if (!config_.between_cells)
     return Detection{t.category, {cell_m.x(), cell_m.y(), wrap_angle(t.orientation_rad)}, degree, std::move(above)};
-  const PlaceInCell place = place_in_cell(field_, t, matches[best].at);
+  const PlaceInCell place = place_of(best, matches[best].at, true, grid);
   const Point at_m = cell_m + grid.cell_m() * place.offset;
   // All three of the parabola where the cells are: the neighbours are not refined.
   complete_neighbours(best, on_cells);

@@ -8,6 +8,7 @@
 #include "plugins/template_matcher/classify.hpp"
 #include "plugins/template_matcher/config.hpp"
 #include "plugins/template_matcher/fast_match.hpp"
+#include "plugins/template_matcher/hidden_part.hpp"
 #include "plugins/template_matcher/refine.hpp"
 #include "plugins/template_matcher/region.hpp"
 #include "plugins/template_matcher/trigger.hpp"
@@ -30,7 +31,10 @@ class TemplateMatcher : public Detector {
   // Of every template that matters the best place: those that may be above tau_match and, when all degrees
   // are asked for, the best of each category.
   [[nodiscard]] std::vector<TemplateMatch> search(std::span<const CellSpan> region);
-  [[nodiscard]] std::vector<TemplateMatch> refined(std::vector<TemplateMatch> matches) const;
+  [[nodiscard]] PlaceInCell place_of(std::size_t index, Cell at, bool between, const OccupancyGrid& grid) const;
+  // What is hidden weighed, and between the cells.
+  [[nodiscard]] std::vector<TemplateMatch> weighed(std::vector<TemplateMatch> matches, const OccupancyGrid& grid) const;
+  [[nodiscard]] std::vector<TemplateMatch> refined(std::vector<TemplateMatch> matches, const OccupancyGrid& grid) const;
   void complete_neighbours(std::size_t index, std::vector<TemplateMatch>& matches);
   [[nodiscard]] std::optional<Detection> detection_of(const std::vector<TemplateMatch>& matches,
                                                       std::vector<TemplateMatch> on_cells, const OccupancyGrid& grid);
@@ -44,7 +48,9 @@ class TemplateMatcher : public Detector {
   Trigger trigger_;
   GradientField field_;  // of the current region
   FastMatcher matcher_;
-  std::vector<std::int32_t> ceilings_;  // one a template: from there on below every threshold
+  std::vector<std::int32_t> ceilings_;         // one a template: from there on below every threshold
+  std::vector<std::int32_t> hidden_ceilings_;  // the same: from there on what is hidden is not weighed
+  HiddenParts hidden_;
   OrientationNeighbours neighbours_;
   std::vector<Cell> touched_;  // kept for its memory only
 };
