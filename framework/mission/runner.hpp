@@ -11,6 +11,7 @@
 #include "framework/behaviour_tree/node_runs.hpp"
 #include "framework/behaviour_tree/runner.hpp"
 #include "framework/mission/events.hpp"
+#include "framework/mission/localisation/carried_watch.hpp"
 #include "framework/mission/localisation/self_finder.hpp"
 #include "framework/mission/mission.hpp"
 #include "framework/mission/orders/order_text.hpp"
@@ -79,7 +80,8 @@ struct MissionResult {
   std::vector<ClusterLevel> cluster_levels{};
   std::vector<StampedPose> poses{};  // of all observations, as known at the end; none for most missions that drive
   std::optional<LocalisationFigures> localisation{};  // of a run that leaves its map alone
-  std::optional<StartCheck> start_check{};            // of a run that goes on with a map, and drives
+  std::optional<PoseCheck> start_check{};             // of a run that goes on with a map, and drives
+  WatchFigures watch{};                               // whether the robot was carried under way
   std::string map_file;                               // name in the output folder; empty: could not be saved
 };
 
