@@ -52,7 +52,9 @@ std::string doubts_json(const WatchFigures& figures) {
 std::string carried_json(const WatchFigures& figures) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const CarriedRecord& carried : figures.carried) {
-    rows.push_back({{"noticed_s", to_micro(carried.noticed_s)}, {"driven_m", to_micro(carried.driven_m)}});
+    rows.push_back({{"noticed_s", to_micro(carried.noticed_s)},
+                    {"distance_m", to_micro(carried.distance_m)},
+                    {"driven_m", to_micro(carried.driven_m)}});
     if (!carried.found_s) continue;
     rows.back()["found_s"] = to_micro(*carried.found_s);
     rows.back()["searched_m"] = to_micro(carried.searched_m);

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "framework/mission/localisation/carried_watch.hpp"
 #include "framework/mission/localisation/self_finder.hpp"
+#include "framework/mission/localisation/watch_figures.hpp"
 
 namespace cairn {
 

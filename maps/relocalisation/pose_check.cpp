@@ -17,6 +17,10 @@ bool PoseCheck::is_against(const PoseLook& look) const {
          look.elsewhere->contradicted_ratio <= 0.5 * believed.contradicted_ratio;
 }
 
+bool PoseCheck::has_stayed(const PoseLook& look) const {
+  return look.driven_m >= (look.believed.score >= rules_.min_score ? rules_.open_for_m : rules_.open_at_most_m);
+}
+
 void PoseCheck::update(const PoseLook& look) {
   if (!is_open()) return;
   looks_.push_back(look);
@@ -26,7 +30,7 @@ void PoseCheck::update(const PoseLook& look) {
   else if (against_ > 0)
     verdict_ = PoseVerdict::doubtful;
   else
-    verdict_ = look.driven_m >= rules_.open_for_m ? PoseVerdict::stayed : PoseVerdict::open;
+    verdict_ = has_stayed(look) ? PoseVerdict::stayed : PoseVerdict::open;
 }
 
 }  // namespace cairn

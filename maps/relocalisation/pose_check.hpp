@@ -31,7 +31,11 @@ struct PoseCheckRules {
   double contradicted_ratio_beside = 0.05;
   double clear_ratio = 0.85;
   int looks_against = 2;    // in a row: the robot was carried
-  double open_for_m = 6.0;  // driven: then it has stayed
+  double open_for_m = 6.0;  // driven: then it has stayed, ...
+  // ... if the pose scores so much by then, or after so much more: where little is known of what it sees, little can
+  // contradict.
+  double min_score = 0.0;
+  double open_at_most_m = 15.0;
 };
 
 enum class PoseVerdict : std::uint8_t {
@@ -54,6 +58,7 @@ class PoseCheck {
 
  private:
   [[nodiscard]] bool is_against(const PoseLook& look) const;
+  [[nodiscard]] bool has_stayed(const PoseLook& look) const;
 
   PoseCheckRules rules_;
   PoseVerdict verdict_ = PoseVerdict::open;

@@ -4,33 +4,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "framework/mission/localisation/map_snapshots.hpp"
 #include "framework/mission/localisation/pose_doubt.hpp"
-#include "maps/relocalisation/pose_check.hpp"
+#include "framework/mission/localisation/watch_figures.hpp"
 
 namespace cairn {
-
-// A doubt of a mission under way, and what came of it.
-struct DoubtRecord {
-  double begun_s = 0.0;
-  DoubtCause cause = DoubtCause::readings;
-  PoseCheck check;
-};
-// A robot that was carried while its mission was under way.
-struct CarriedRecord {
-  double noticed_s = 0.0;
-  double driven_m = 0.0;  // from the doubt until then
-  std::optional<double> found_s;
-  double searched_m = 0.0;  // driven from the doubt until it was found
-  Pose2 T_map_robot;        // when it was found
-};
-struct WatchFigures {
-  std::vector<DoubtRecord> doubts;  // the first of them
-  std::size_t doubts_left_out = 0;
-  std::vector<CarriedRecord> carried;
-};
 
 class CarriedWatch {
  public:

@@ -44,10 +44,6 @@ bool is_behind_something(const OccupancyGrid& map, const Pose2& T_map_sensor, do
 
 }  // namespace
 
-std::string_view name_of(DoubtCause cause) {
-  return cause == DoubtCause::jump ? "jump" : "readings";
-}
-
 MapAnswer answer_of(const OccupancyGrid& map, const Pose2& T_map_robot, const RangeReading& reading) {
   const bool is_echo = reading.range_m >= reading.min_m && reading.range_m < std::min(reading.max_m, kMaxRange_m);
   if (!is_echo || !is_finite(reading.T_robot_sensor)) return MapAnswer::unknown;
@@ -61,9 +57,8 @@ PoseDoubt::PoseDoubt(const RobotModel& robot, const DoubtRules& rules)
 
 std::optional<DoubtCause> PoseDoubt::update(const Observation& observation, const Pose2& T_map_robot,
                                             const OccupancyGrid& before) {
-  if (has_jumped(observation, T_map_robot)) cause_ = DoubtCause::jump;
-  if (!sampled_at_ || is_apart(*sampled_at_, T_map_robot, rules_.sample_every_m, rules_.sample_every_rad))
-    sample(observation, T_map_robot, before);
+  if (has_jumped(observation, T_map_robot) && !cause_) cause_ = DoubtCause::jump;
+  compare(observation, T_map_robot, before);
   if (sum_.known >= rules_.min_readings && contradicted_ratio() >= rules_.contradicted_ratio && !cause_)
     cause_ = DoubtCause::readings;
   if (!cause_ || !does_compass_agree(observation, T_map_robot)) return std::nullopt;
@@ -77,8 +72,7 @@ double PoseDoubt::contradicted_ratio() const {
 void PoseDoubt::reset() {
   T_map_robot_.reset();
   T_odom_robot_.reset();
-  sampled_at_.reset();
-  samples_.clear();
+  pieces_.clear();
   sum_ = {};
   cause_.reset();
 }
@@ -100,22 +94,28 @@ bool PoseDoubt::does_compass_agree(const Observation& observation, const Pose2& 
   return std::abs(wrap_angle(*observation.compass_rad - T_map_robot.theta_rad)) <= compass_within_rad_;
 }
 
-void PoseDoubt::sample(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& before) {
-  sampled_at_ = T_map_robot;
-  Sample now;
-  const std::size_t stride = 1 + observation.ranges.size() / (rules_.max_readings + 1);
-  for (std::size_t i = 0; i < observation.ranges.size(); i += stride) {
-    const MapAnswer answer = answer_of(before, T_map_robot, observation.ranges[i]);
-    now.known += answer != MapAnswer::unknown ? 1 : 0;
-    now.contradicted += answer == MapAnswer::contradicts ? 1 : 0;
+void PoseDoubt::compare(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& before) {
+  if (pieces_.empty() || is_apart(piece_begun_at_, T_map_robot, rules_.piece_m, rules_.piece_rad)) {
+    pieces_.emplace_back();
+    piece_begun_at_ = T_map_robot;
   }
-  samples_.push_back(now);
-  sum_.known += now.known;
-  sum_.contradicted += now.contradicted;
-  if (samples_.size() <= rules_.samples) return;
-  sum_.known -= samples_.front().known;
-  sum_.contradicted -= samples_.front().contradicted;
-  samples_.pop_front();
+  if (pieces_.size() > rules_.pieces) {
+    sum_.known -= pieces_.front().known;
+    sum_.contradicted -= pieces_.front().contradicted;
+    pieces_.pop_front();
+  }
+  Piece& piece = pieces_.back();
+  const std::size_t stride = 1 + observation.ranges.size() / (rules_.max_readings + 1);
+  for (std::size_t i = 0; i < observation.ranges.size() && piece.readings < rules_.max_readings; i += stride) {
+    const MapAnswer answer = answer_of(before, T_map_robot, observation.ranges[i]);
+    const int known = answer != MapAnswer::unknown ? 1 : 0;
+    const int contradicted = answer == MapAnswer::contradicts ? 1 : 0;
+    ++piece.readings;
+    piece.known += known;
+    sum_.known += known;
+    piece.contradicted += contradicted;
+    sum_.contradicted += contradicted;
+  }
 }
 
 }  // namespace cairn

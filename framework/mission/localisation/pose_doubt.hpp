@@ -9,27 +9,24 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string_view>
 
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/mission/localisation/watch_figures.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 
 namespace cairn {
 
 struct DoubtRules {
-  double sample_every_m = 0.1;  // driven: one observation of each such piece counts
-  double sample_every_rad = radians(20.0);
-  std::size_t samples = 20;
-  std::size_t max_readings = 36;  // of an observation, evenly thinned
+  double piece_m = 0.1;  // of the way, or a turn of
+  double piece_rad = radians(20.0);
+  std::size_t pieces = 20;
+  std::size_t max_readings = 36;  // of a piece: the rest, as of a robot that stands, says nothing more
   int min_readings = 40;          // that the map says something about
   double contradicted_ratio = 0.12;
   double jump_m = 0.3;  // more than odometry says, from one tick to the next
   double jump_rad = radians(15.0);
 };
-
-enum class DoubtCause : std::uint8_t { readings, jump };
-[[nodiscard]] std::string_view name_of(DoubtCause cause);
 
 enum class MapAnswer : std::uint8_t { unknown, agrees, contradicts };
 // What a map says to an echo; `unknown` to every other reading.
@@ -45,26 +42,28 @@ class PoseDoubt {
   // Far from a doubt: what is drawn now is worth keeping.
   [[nodiscard]] bool is_quiet() const { return 2.0 * contradicted_ratio() < rules_.contradicted_ratio; }
   [[nodiscard]] double contradicted_ratio() const;  // of the readings that the map says something about
+  int known() const { return sum_.known; }          // DEBUG
   // A doubt needs new evidence.
   void reset();
 
  private:
-  struct Sample {
+  struct Piece {
+    std::size_t readings = 0;
     int known = 0;
     int contradicted = 0;
   };
   [[nodiscard]] bool has_jumped(const Observation& observation, const Pose2& T_map_robot);
   [[nodiscard]] bool does_compass_agree(const Observation& observation, const Pose2& T_map_robot) const;
-  void sample(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& before);
+  void compare(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& before);
 
   DoubtRules rules_;
   double compass_within_rad_;
   bool has_compass_;
   std::optional<Pose2> T_map_robot_;   // of the last tick
   std::optional<Pose2> T_odom_robot_;  // of the last tick
-  std::optional<Pose2> sampled_at_;
-  std::deque<Sample> samples_;
-  Sample sum_;
+  Pose2 piece_begun_at_{};
+  std::deque<Piece> pieces_;  // the last is under way
+  Piece sum_;
   std::optional<DoubtCause> cause_;  // until the compass agrees
 };
 

@@ -14,6 +14,9 @@ namespace {
 // In the frame of the map while it is doubted; what the compass says is within its errors of that.
 constexpr double kDoubtedHeading_rad = radians(5.0);
 
+// Of a place that counts as known. A map that goes on need not hold it at the start: the mission may explore.
+constexpr double kMinScoreUnderWay = 0.6;
+
 bool has_ranges(const RobotModel& robot) {
   return !robot.sonars.empty() || !robot.lasers.empty();
 }
@@ -42,7 +45,8 @@ void MissionLoop::begin_watch() {
 
 void MissionLoop::begin_check(std::shared_ptr<const MapSnapshot> before, const Pose2& T_map_robot,
                               const StartUncertainty& uncertainty, const std::optional<DoubtCause>& cause) {
-  check_.emplace(OpenCheck{{}, std::move(before), T_map_robot, world_.time_s, cause});
+  check_.emplace(OpenCheck{cause ? PoseCheck({.min_score = kMinScoreUnderWay}) : PoseCheck(), std::move(before),
+                           T_map_robot, world_.time_s, cause});
   perception_.draw_own_map(build_localizer(mission_, library_, {T_map_robot, uncertainty}),
                            build_map(mission_, library_, nullptr), *check_->before);
   finder_.emplace(check_->before->grid, mission_.robot);
@@ -100,7 +104,8 @@ void MissionLoop::lose_itself() {
   world_.lose(own_pose, perception_.lose(), check_->before->grid, check_->before->T_map_robot);
   if (!check_->cause) saving_.leave_map_alone(true);
   localisation_ = finder_->figures();
-  if (check_->cause) watch_->record_carried({world_.time_s, check_->check.looks().back().driven_m});
+  if (check_->cause)
+    watch_->record_carried({world_.time_s, counts_.figures().distance_m, check_->check.looks().back().driven_m});
   publish_carried(landmarks - std::min(landmarks, world_.graph.landmarks().size()));
   steps_.lose();
 }

@@ -31,6 +31,16 @@ TEST(PoseCheck, WhatFitsWhereItIsBelievedHasStayedAfterSixMetres) {
   EXPECT_EQ(check.looks().size(), 6U);
 }
 
+TEST(PoseCheck, WhereLittleIsKnownItCanBeKeptOpenForLonger) {
+  PoseCheck check({.min_score = 0.6});
+  const PoseLook unknown{0.0, guess(0.5, 0.02), std::nullopt};
+  EXPECT_EQ(after(check, unknown, 1, 10), PoseVerdict::open);
+  EXPECT_EQ(after(check, {0.0, guess(0.7, 0.02), std::nullopt}, 11, 11), PoseVerdict::stayed);
+  PoseCheck other({.min_score = 0.6});
+  EXPECT_EQ(after(other, unknown, 1, 14), PoseVerdict::open);
+  EXPECT_EQ(after(other, unknown, 15, 15), PoseVerdict::stayed);
+}
+
 TEST(PoseCheck, TwoLooksThatTheMapContradictsSayThatItWasCarried) {
   PoseCheck check;
   const PoseLook against{0.0, guess(0.45, 0.2), std::nullopt};
