@@ -23,7 +23,7 @@ struct DoubtRules {
   std::size_t pieces = 20;
   std::size_t max_readings = 36;  // of a piece: the rest, as of a robot that stands, says nothing more
   int min_readings = 40;          // that the map says something about
-  double contradicted_ratio = 0.12;
+  double contradicted_ratio = 0.15;
   double jump_m = 0.3;  // more than odometry says, from one tick to the next
   double jump_rad = radians(15.0);
 };
