@@ -107,7 +107,8 @@ def under_way(out, world, seed, saved, is_carried):
     row = {"world": world, "seed": seed, "saved": saved, "carried": is_carried}
     if is_carried:
         until = out / f"{world}_{seed}_{saved}_until"
-        run(until, world, seed, carried_s, "--resume", str(map_file))
+        if not (until / "carried.cairn").exists():
+            run(until, world, seed, carried_s, "--resume", str(map_file))
         _, carried_at_m, x, y, _ = true_pose(until / "carried.cairn")
         row |= {"carried_s": carried_s, "carried_at_m": carried_at_m}
     while True:

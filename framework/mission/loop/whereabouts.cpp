@@ -14,8 +14,15 @@ namespace {
 // In the frame of the map while it is doubted; what the compass says is within its errors of that.
 constexpr double kDoubtedHeading_rad = radians(5.0);
 
-// Of a place that counts as known. A map that goes on need not hold it at the start: the mission may explore.
-constexpr double kMinScoreUnderWay = 0.6;
+// Under way a check begins because something contradicts the map: a person, a door, a transducer that is stuck. So what
+// contradicts the pose says less than at the start; mostly a place elsewhere must explain what is seen.
+PoseCheckRules rules_under_way() {
+  PoseCheckRules rules;
+  rules.contradicted_ratio = 0.25;
+  rules.max_score = 0.5;
+  rules.min_score = 0.6;
+  return rules;
+}
 
 bool has_ranges(const RobotModel& robot) {
   return !robot.sonars.empty() || !robot.lasers.empty();
@@ -45,8 +52,8 @@ void MissionLoop::begin_watch() {
 
 void MissionLoop::begin_check(std::shared_ptr<const MapSnapshot> before, const Pose2& T_map_robot,
                               const StartUncertainty& uncertainty, const std::optional<DoubtCause>& cause) {
-  check_.emplace(OpenCheck{cause ? PoseCheck({.min_score = kMinScoreUnderWay}) : PoseCheck(), std::move(before),
-                           T_map_robot, world_.time_s, cause});
+  check_.emplace(OpenCheck{cause ? PoseCheck(rules_under_way()) : PoseCheck(), std::move(before), T_map_robot,
+                           world_.time_s, cause});
   perception_.draw_own_map(build_localizer(mission_, library_, {T_map_robot, uncertainty}),
                            build_map(mission_, library_, nullptr), *check_->before);
   finder_.emplace(check_->before->grid, mission_.robot);
