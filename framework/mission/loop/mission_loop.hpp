@@ -106,7 +106,7 @@ class MissionLoop {
   void begin_localisation(const LocaliseIn& localise);
   void begin_watch();
   void begin_check(std::shared_ptr<const MapSnapshot> before, const Pose2& T_map_robot,
-                   const StartUncertainty& uncertainty, const std::optional<DoubtCause>& cause);
+                   const std::optional<DoubtCause>& cause);
   void begin_check_in_doubt();
   [[nodiscard]] bool is_check_open() const;
   [[nodiscard]] bool may_autosave() const;

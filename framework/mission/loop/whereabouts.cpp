@@ -11,9 +11,6 @@
 namespace cairn {
 namespace {
 
-// In the frame of the map while it is doubted; what the compass says is within its errors of that.
-constexpr double kDoubtedHeading_rad = radians(5.0);
-
 // Under way a check begins because something contradicts the map: a person, a door, a transducer that is stuck. So what
 // contradicts the pose says less than at the start; mostly a place elsewhere must explain what is seen.
 PoseCheckRules rules_under_way() {
@@ -47,14 +44,14 @@ void MissionLoop::begin_watch() {
   if (options_.resume == nullptr) return;
   const auto left = std::make_shared<const MapSnapshot>(
       MapSnapshot{*grid_so_far_, perception_.known_landmarks(), modules_.T_map_start});
-  begin_check(left, modules_.T_map_start, own_frame(mission_.robot), std::nullopt);
+  begin_check(left, modules_.T_map_start, std::nullopt);
 }
 
 void MissionLoop::begin_check(std::shared_ptr<const MapSnapshot> before, const Pose2& T_map_robot,
-                              const StartUncertainty& uncertainty, const std::optional<DoubtCause>& cause) {
+                              const std::optional<DoubtCause>& cause) {
   check_.emplace(OpenCheck{cause ? PoseCheck(rules_under_way()) : PoseCheck(), std::move(before), T_map_robot,
                            world_.time_s, cause});
-  perception_.draw_own_map(build_localizer(mission_, library_, {T_map_robot, uncertainty}),
+  perception_.draw_own_map(build_localizer(mission_, library_, {T_map_robot, own_frame(mission_.robot)}),
                            build_map(mission_, library_, nullptr), *check_->before);
   finder_.emplace(check_->before->grid, mission_.robot);
   if (!cause) start_check_.emplace();
@@ -72,8 +69,7 @@ bool MissionLoop::may_autosave() const {
 // By what the ticks before have seen: the own map begins with this observation.
 void MissionLoop::begin_check_in_doubt() {
   if (finder_ || !watch_ || !watch_->doubt() || !modules_.find_myself) return;
-  const StartUncertainty uncertainty{0.0, mission_.robot.has_compass ? kDoubtedHeading_rad : 0.0};
-  begin_check(watch_->before(), world_.pose.T_map_robot, uncertainty, watch_->doubt());
+  begin_check(watch_->before(), world_.pose.T_map_robot, watch_->doubt());
 }
 
 void MissionLoop::look_where_robot_is() {
