@@ -69,8 +69,10 @@ void SelfFinder::take(const Answer& answer) {
   belief_.update(answer.found, running_->T_local_robot);
   if (!answer.believed) return;
   PoseLook look{running_->driven_m, *answer.believed, std::nullopt};
+  // Not from the best pose beside it, which a place some steps away has pulled towards itself.
+  const Pose2 T_map_robot_believed = *T_map_local_believed_ * running_->T_local_robot;
   for (const PoseHypothesis& guess : answer.found) {
-    if (is_same_place(guess.T_map_robot, look.believed.T_map_robot)) continue;
+    if (is_same_place(guess.T_map_robot, T_map_robot_believed)) continue;
     look.elsewhere = guess;
     break;
   }
