@@ -249,7 +249,8 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     throw missing.front();
   for (const TreeNode* node : behaviours_of(mission.steps))
     built.behaviours.push_back(build_behaviour(mission, library, *node, built.behaviours.size()));
-  if (resume != nullptr) built.find_myself = build_find_myself(mission, library, built.behaviours.size());
+  if (!start_known && fenced("sensor", config.sensor.name, [&] { return built.sensor->drive(); }) != nullptr)
+    built.find_myself = build_find_myself(mission, library, built.behaviours.size());
   return built;
 }
 

@@ -32,7 +32,7 @@ struct MissionModules {
   std::shared_ptr<Planner> planner;                    // may be null
   std::shared_ptr<Controller> controller;              // null when the default one is not installed
   std::vector<std::shared_ptr<Behaviour>> behaviours;  // in the order of behaviours_of()
-  std::shared_ptr<Behaviour> find_myself;              // for a run that goes on from a map; may be null
+  std::shared_ptr<Behaviour> find_myself;              // for a robot that was carried; may be null
   Pose2 T_map_start;
   double begin_s = 0.0;  // the mission's clock
 };

@@ -12,6 +12,7 @@
 #include "framework/behaviour_tree/runner.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/localisation/self_finder.hpp"
+#include "framework/mission/localisation/watch_figures.hpp"
 #include "framework/mission/mission.hpp"
 #include "framework/mission/orders/order_text.hpp"
 #include "framework/mission/run_control.hpp"
@@ -79,7 +80,8 @@ struct MissionResult {
   std::vector<ClusterLevel> cluster_levels{};
   std::vector<StampedPose> poses{};  // of all observations, as known at the end; none for most missions that drive
   std::optional<LocalisationFigures> localisation{};  // of a run that leaves its map alone
-  std::optional<StartCheck> start_check{};            // of a run that goes on with a map, and drives
+  std::optional<PoseCheck> start_check{};             // of a run that goes on with a map, and drives
+  WatchFigures watch{};                               // whether the robot was carried under way
   std::string map_file;                               // name in the output folder; empty: could not be saved
 };
 

@@ -24,15 +24,43 @@ nlohmann::ordered_json guess_json(const PoseHypothesis& guess) {
   return row;
 }
 
-}  // namespace
-
-std::string start_check_json(const StartCheck& check) {
+nlohmann::ordered_json json_of(const PoseCheck& check) {
   nlohmann::ordered_json looks = nlohmann::ordered_json::array();
-  for (const StartLook& look : check.looks()) {
+  for (const PoseLook& look : check.looks()) {
     looks.push_back({{"driven_m", to_micro(look.driven_m)}, {"believed", guess_json(look.believed)}});
     if (look.elsewhere) looks.back()["elsewhere"] = guess_json(*look.elsewhere);
   }
-  return nlohmann::ordered_json{{"trust", std::string(name_of(check.trust()))}, {"looks", std::move(looks)}}.dump();
+  return {{"trust", std::string(name_of(check.verdict()))}, {"looks", std::move(looks)}};
+}
+
+}  // namespace
+
+std::string start_check_json(const PoseCheck& check) {
+  return json_of(check).dump();
+}
+
+std::string doubts_json(const WatchFigures& figures) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const DoubtRecord& doubt : figures.doubts) {
+    nlohmann::ordered_json row = {{"begun_s", to_micro(doubt.begun_s)}, {"cause", std::string(name_of(doubt.cause))}};
+    row.update(json_of(doubt.check));
+    rows.push_back(std::move(row));
+  }
+  return rows.dump();
+}
+
+std::string carried_json(const WatchFigures& figures) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const CarriedRecord& carried : figures.carried) {
+    rows.push_back({{"noticed_s", to_micro(carried.noticed_s)},
+                    {"distance_m", to_micro(carried.distance_m)},
+                    {"driven_m", to_micro(carried.driven_m)}});
+    if (!carried.found_s) continue;
+    rows.back()["found_s"] = to_micro(*carried.found_s);
+    rows.back()["searched_m"] = to_micro(carried.searched_m);
+    rows.back()["found_at"] = place_json(carried.T_map_robot);
+  }
+  return rows.dump();
 }
 
 std::string localisation_json(const LocalisationFigures& figures) {

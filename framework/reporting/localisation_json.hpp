@@ -4,11 +4,15 @@
 #include <string>
 
 #include "framework/mission/localisation/self_finder.hpp"
+#include "framework/mission/localisation/watch_figures.hpp"
 
 namespace cairn {
 
 // The same of a run that goes on with a map: whether the robot was carried.
-[[nodiscard]] std::string start_check_json(const StartCheck& check);
+[[nodiscard]] std::string start_check_json(const PoseCheck& check);
+// The doubts of a mission under way, and the times that its robot was carried.
+[[nodiscard]] std::string doubts_json(const WatchFigures& figures);
+[[nodiscard]] std::string carried_json(const WatchFigures& figures);
 [[nodiscard]] std::string localisation_json(const LocalisationFigures& figures);
 
 }  // namespace cairn

@@ -219,6 +219,13 @@ std::optional<Pose2> true_pose(const MissionView& view) {
   return view.truth ? std::optional(view.truth->T_map_robot) : std::nullopt;
 }
 
+// Only of a robot whose place was in doubt.
+void add_watch(ordered_json& json, const WatchFigures& watch) {
+  if (!watch.doubts.empty()) json["doubts"] = ordered_json::parse(doubts_json(watch));
+  if (watch.doubts_left_out > 0) json["doubts_left_out"] = watch.doubts_left_out;
+  if (!watch.carried.empty()) json["carried"] = ordered_json::parse(carried_json(watch));
+}
+
 }  // namespace
 
 RunReport::RunReport(const HistoryConfig& history)
@@ -270,6 +277,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   add_timeline(report, timeline_);
   if (result.start_check) report["start_check"] = ordered_json::parse(start_check_json(*result.start_check));
   if (result.localisation) report["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
+  add_watch(report, result.watch);
   report["map"] = result.map_file;
   report["pictures"] = pictures;
   if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
@@ -302,6 +310,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   summary["wall_s"] = rounded(wall_s);
   if (result.start_check) summary["start_check"] = ordered_json::parse(start_check_json(*result.start_check));
   if (result.localisation) summary["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
+  add_watch(summary, result.watch);
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
   summary["autosave"] = json_of(result.autosave);
   summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();

@@ -30,10 +30,12 @@ StartUncertainty own_frame(const RobotModel& robot) {
   return {0.0, robot.has_compass ? kAnyHeading_rad : 0.0};
 }
 
+double compass_within(const RobotModel& robot) {
+  return kCompassSlack_rad + robot.compass_error.noise_rad + robot.compass_error.local_bias_rad;
+}
+
 SelfFinder::SelfFinder(const OccupancyGrid& map, const RobotModel& robot)
-    : search_(map),
-      compass_within_rad_(kCompassSlack_rad + robot.compass_error.noise_rad + robot.compass_error.local_bias_rad),
-      has_compass_(robot.has_compass) {}
+    : map_(map), compass_within_rad_(compass_within(robot)), has_compass_(robot.has_compass) {}
 
 void SelfFinder::update(const Observation& observation, const Pose2& T_local_robot, const OccupancyGrid& seen,
                         double time_s) {
@@ -49,8 +51,9 @@ void SelfFinder::update(const Observation& observation, const Pose2& T_local_rob
   if (T_map_local_believed_) T_map_robot_believed = *T_map_local_believed_ * T_local_robot;
   const auto search = [this, around = surroundings_of(seen, T_local_robot), turned = heading(T_local_robot),
                        T_map_robot_believed] {
-    Answer answer{search_.find(around, turned), std::nullopt};
-    if (T_map_robot_believed) answer.believed = search_.at(around, *T_map_robot_believed);
+    if (!search_) search_.emplace(map_);
+    Answer answer{search_->find(around, turned), std::nullopt};
+    if (T_map_robot_believed) answer.believed = search_->at(around, *T_map_robot_believed);
     return answer;
   };
   running_ = Search{std::async(std::launch::async, search), T_local_robot, time_s, belief_.driven_m()};
@@ -65,9 +68,11 @@ void SelfFinder::compare_with(const Pose2& T_map_start, const Pose2& T_local_rob
 void SelfFinder::take(const Answer& answer) {
   belief_.update(answer.found, running_->T_local_robot);
   if (!answer.believed) return;
-  StartLook look{running_->driven_m, *answer.believed, std::nullopt};
+  PoseLook look{running_->driven_m, *answer.believed, std::nullopt};
+  // Not from the best pose beside it, which a place some steps away has pulled towards itself.
+  const Pose2 T_map_robot_believed = *T_map_local_believed_ * running_->T_local_robot;
   for (const PoseHypothesis& guess : answer.found) {
-    if (is_same_place(guess.T_map_robot, look.believed.T_map_robot)) continue;
+    if (is_same_place(guess.T_map_robot, T_map_robot_believed)) continue;
     look.elsewhere = guess;
     break;
   }

@@ -18,7 +18,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "maps/relocalisation/pose_belief.hpp"
-#include "maps/relocalisation/start_check.hpp"
+#include "maps/relocalisation/pose_check.hpp"
 
 namespace cairn {
 
@@ -36,10 +36,12 @@ struct LocalisationFigures {
 inline constexpr StartUncertainty kFoundUncertainty{0.1, radians(2.0)};
 // In a frame of its own, which is turned as the compass says.
 [[nodiscard]] StartUncertainty own_frame(const RobotModel& robot);
+// By how much a compass can be wrong.
+[[nodiscard]] double compass_within(const RobotModel& robot);
 
 class SelfFinder {
  public:
-  // The map must outlive it.
+  // The map must outlive it, and stay as it is.
   SelfFinder(const OccupancyGrid& map, const RobotModel& robot);
 
   // At every tick. seen: the small map.
@@ -50,7 +52,7 @@ class SelfFinder {
   // with the first observation. The frames are the same, or turned to each other by more than a compass can be wrong.
   void compare_with(const Pose2& T_map_start, const Pose2& T_local_robot);
   [[nodiscard]] bool is_compared() const { return T_map_local_believed_.has_value(); }
-  [[nodiscard]] const std::vector<StartLook>& looks() const { return looks_; }
+  [[nodiscard]] const std::vector<PoseLook>& looks() const { return looks_; }
   // Where the robot's own frame lies in the map, once that is known.
   [[nodiscard]] const std::optional<Pose2>& T_map_local() const {
     return by_marker_ ? by_marker_ : belief_.T_map_local();
@@ -75,7 +77,8 @@ class SelfFinder {
   void follow_compass(const Observation& observation, const Pose2& T_local_robot);
   [[nodiscard]] std::optional<KnownHeading> heading(const Pose2& T_local_robot) const;
 
-  const PoseSearch search_;
+  const OccupancyGrid& map_;
+  std::optional<PoseSearch> search_;  // made by the first search, in its thread
   double compass_within_rad_;
   bool has_compass_;
   Point compass_sum_{0.0, 0.0};  // of unit vectors: by how much the map's frame is turned from the robot's own
@@ -89,7 +92,7 @@ class SelfFinder {
   std::optional<Pose2> by_marker_;
   int searches_ = 0;
   std::optional<Pose2> T_map_local_believed_;
-  std::vector<StartLook> looks_;
+  std::vector<PoseLook> looks_;
   std::optional<Search> running_;  // last: its thread uses search_
 };
 

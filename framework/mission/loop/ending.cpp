@@ -114,7 +114,7 @@ void MissionLoop::restore(const SavedMap& map) {
 SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
   MissionProgress progress;
   progress.time_s = clock_.time_s();
-  progress.T_map_robot = world_.pose.T_map_robot;
+  progress.T_map_robot = world_.map_before == nullptr ? world_.pose.T_map_robot : world_.T_map_before;
   if (world_.truth) progress.true_T_map_robot = world_.truth->T_map_robot;
   progress.distance_m = counts_.figures().distance_m;
   progress.readings = counts_.figures().readings;
@@ -122,7 +122,7 @@ SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
   progress.collisions = counts_.figures().collisions;
   steps_.describe(progress);
   SavedMap map =
-      map_of_mission(mission_, *world_.grid, perception_.tracker(), std::move(clusters), std::move(progress));
+      map_of_mission(mission_, world_.mission_map(), perception_.tracker(), std::move(clusters), std::move(progress));
   add_pauses(map, clock_.paused_s());
   steps_.describe(map);
   return map;
@@ -160,6 +160,7 @@ MissionResult MissionLoop::result() const {
   result.autosave = saving_.figures();
   result.localisation = localisation_;
   result.start_check = start_check_;
+  if (watch_) result.watch = watch_->figures();
   result.map_file = saving_.map_file();
   result.clusters = planning_.last_clusters();
   result.poses = perception_.past().poses();

@@ -99,9 +99,9 @@ std::string MapSaving::save_last(bool is_done) {
 
 Status MapSaving::write(const std::string& file_name) {
   if (world_.grid == nullptr) return {StepState::failure, "there is no map to save"};
-  explored_ratio_ = world_.explored_ratio();
+  explored_ratio_ = known_ratio(world_.mission_map());
   try {
-    SavedMap map = content_(planning_.clusters(*world_.grid));
+    SavedMap map = content_(planning_.clusters(world_.mission_map()));
     map.submaps = submaps_();
     save_map(options_.folder / file_name, map, Links::replace);
   } catch (const std::exception& error) {

@@ -63,7 +63,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
   world_.hierarchies = &planning_.hierarchies();
   world_.speed_law = mission_.config.collision_monitor.speed_law();
   if (options.resume != nullptr) restore(*options.resume);
-  if (options.resume != nullptr) begin_start_check();
+  begin_watch();
   if (options.localise_in) begin_localisation(*options.localise_in);
 }
 
@@ -134,8 +134,11 @@ void MissionLoop::tick(Sensed sensed) {
   const Observation& observation = world_.observation;
   in(stages.perception, [&] { perception_.see_markers(world_.observation); });
 
-  world_.pose = in(stages.perception, [&] { return perception_.localize(observation); });
-  if (finder_) in(stages.perception, [&] { look_where_robot_is(); });
+  world_.pose = in(stages.perception, [&] {
+    begin_check_in_doubt();
+    return perception_.localize(observation);
+  });
+  in(stages.perception, [&] { look_where_robot_is(); });
   if (perception_.is_map_moved()) in(stages.perception, [&] { redraw_map(); });
   const std::vector<ExpectedEcho> expected = in(stages.echo_prediction, [&] { return expected_of(observation); });
   const CellChanges& cells = in(stages.perception, [&]() -> const CellChanges& {
@@ -155,7 +158,7 @@ void MissionLoop::tick(Sensed sensed) {
   in(stages.run_control, [&] {
     if (options_.control != nullptr) options_.control->tick([this] { return status(); });
   });
-  if (!is_start_open()) in(stages.autosave, [&] { saving_.autosave(); });
+  if (may_autosave()) in(stages.autosave, [&] { saving_.autosave(); });
 }
 
 void MissionLoop::take(Sensed sensed) {

@@ -11,6 +11,7 @@
 #include "framework/mission/clock/pace.hpp"
 #include "framework/mission/clock/pauses.hpp"
 #include "framework/mission/hearing/hearing_record.hpp"
+#include "framework/mission/localisation/carried_watch.hpp"
 #include "framework/mission/localisation/self_finder.hpp"
 #include "framework/mission/loop/display_feed.hpp"
 #include "framework/mission/loop/hold_record.hpp"
@@ -19,7 +20,6 @@
 #include "framework/mission/perception/perception.hpp"
 #include "framework/modules/plausibility.hpp"
 #include "framework/safety/fatal_ends.hpp"
-#include "maps/relocalisation/start_check.hpp"
 
 namespace cairn {
 
@@ -65,6 +65,14 @@ class MissionLoop {
     std::optional<GroundTruth> truth{};  // of the step's observation, for listeners only
   };
   static constexpr const char* kExitElsewhere = "exit() was called in a thread of a module's own";
+  // Whether the robot was carried; until it has found itself, if so.
+  struct OpenCheck {
+    PoseCheck check;
+    std::shared_ptr<const MapSnapshot> before;  // what it would go back to
+    Pose2 T_map_begin;                          // where it was believed to be when the check began
+    double begun_s = 0.0;
+    std::optional<DoubtCause> cause;  // none: the run goes on with a map
+  };
   struct Ending {
     MissionOutcome outcome = MissionOutcome::done;
     std::string reason{};
@@ -96,11 +104,16 @@ class MissionLoop {
   void save_last();
   void redraw_map();
   void begin_localisation(const LocaliseIn& localise);
-  void begin_start_check();
-  [[nodiscard]] bool is_start_open() const;
+  void begin_watch();
+  void begin_check(std::shared_ptr<const MapSnapshot> before, const Pose2& T_map_robot,
+                   const std::optional<DoubtCause>& cause);
+  void begin_check_in_doubt();
+  [[nodiscard]] bool is_check_open() const;
+  [[nodiscard]] bool may_autosave() const;
   void look_where_robot_is();
-  void check_start();
+  void check_pose();
   void lose_itself();
+  void publish_carried(std::size_t landmarks_forgotten);
   void find_itself();
   void connect_landmarks();
   [[nodiscard]] Stalled stalled_for(double for_s) const;
@@ -134,8 +147,10 @@ class MissionLoop {
   Orders orders_;
   DisplayFeed display_;
   Steps steps_;
-  std::optional<StartCheck> start_check_;  // of a run that goes on: whether the robot was carried
-  std::optional<SelfFinder> finder_;       // while the robot does not know where it is, or is checked
+  std::optional<PoseCheck> start_check_;  // of a run that goes on: whether the robot was carried
+  std::optional<CarriedWatch> watch_;
+  std::optional<OpenCheck> check_;
+  std::optional<SelfFinder> finder_;  // while the robot does not know where it is, or is checked
   Ending ending_;
   FatalEnds fatal_ends_;  // the last: what it shows must be there
 };

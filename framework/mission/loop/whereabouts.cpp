@@ -1,10 +1,31 @@
-// How the mission knows where in a saved map the robot is: anywhere, where it was left, or carried meanwhile.
+// How the mission knows where in its map the robot is: anywhere in a saved one, where it was left, or carried
+// meanwhile.
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "framework/mission/loop/mission_loop.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
+namespace {
+
+// Under way a check begins because something contradicts the map: a person, a door, a transducer that is stuck. So what
+// contradicts the pose says less than at the start; mostly a place elsewhere must explain what is seen.
+PoseCheckRules rules_under_way() {
+  PoseCheckRules rules;
+  rules.contradicted_ratio = 0.25;
+  rules.max_score = 0.5;
+  rules.min_score = 0.6;
+  return rules;
+}
+
+bool has_ranges(const RobotModel& robot) {
+  return !robot.sonars.empty() || !robot.lasers.empty();
+}
+
+}  // namespace
 
 void MissionLoop::begin_localisation(const LocaliseIn& localise) {
   localisation_.emplace();
@@ -16,57 +37,97 @@ void MissionLoop::begin_localisation(const LocaliseIn& localise) {
 }
 
 // A log knows no other place than its own, and a robot that measures nothing cannot be checked.
-void MissionLoop::begin_start_check() {
-  if (!modules_.has_drive || (mission_.robot.sonars.empty() && mission_.robot.lasers.empty())) return;
-  perception_.draw_own_map(build_localizer(mission_, library_, {modules_.T_map_start, own_frame(mission_.robot)}),
-                           build_map(mission_, library_, nullptr));
-  finder_.emplace(*grid_so_far_, mission_.robot);
-  start_check_.emplace();
+void MissionLoop::begin_watch() {
+  if (!modules_.has_drive || !has_ranges(mission_.robot) || options_.localise_in) return;
+  watch_.emplace(mission_.robot);
   if (modules_.find_myself) steps_.recover_by(modules_.find_myself, kFindMyself);
+  if (options_.resume == nullptr) return;
+  const auto left = std::make_shared<const MapSnapshot>(
+      MapSnapshot{*grid_so_far_, perception_.known_landmarks(), modules_.T_map_start});
+  begin_check(left, modules_.T_map_start, std::nullopt);
 }
 
-bool MissionLoop::is_start_open() const {
-  return start_check_ && start_check_->is_open();
+void MissionLoop::begin_check(std::shared_ptr<const MapSnapshot> before, const Pose2& T_map_robot,
+                              const std::optional<DoubtCause>& cause) {
+  check_.emplace(OpenCheck{cause ? PoseCheck(rules_under_way()) : PoseCheck(), std::move(before), T_map_robot,
+                           world_.time_s, cause});
+  perception_.draw_own_map(build_localizer(mission_, library_, {T_map_robot, own_frame(mission_.robot)}),
+                           build_map(mission_, library_, nullptr), *check_->before);
+  finder_.emplace(check_->before->grid, mission_.robot);
+  if (!cause) start_check_.emplace();
+}
+
+bool MissionLoop::is_check_open() const {
+  return check_ && check_->check.is_open();
+}
+
+// Where a map was continued in the wrong place, the file that it came from is worth more.
+bool MissionLoop::may_autosave() const {
+  return !is_check_open() || (check_->cause && check_->check.verdict() == PoseVerdict::open);
+}
+
+// By what the ticks before have seen: the own map begins with this observation.
+void MissionLoop::begin_check_in_doubt() {
+  if (finder_ || !watch_ || !watch_->doubt() || !modules_.find_myself) return;
+  begin_check(watch_->before(), world_.pose.T_map_robot, watch_->doubt());
 }
 
 void MissionLoop::look_where_robot_is() {
-  if (is_start_open())
-    check_start();
-  else
+  if (is_check_open())
+    check_pose();
+  else if (finder_)
     find_itself();
+  else if (watch_ && !perception_.has_history())
+    watch_->update(world_.observation, world_.pose.T_map_robot, *world_.grid,
+                   [this] { return perception_.known_landmarks(); });
 }
 
 // The own map begins where the robot is believed to be: as long as that is right, its frame is the map's.
-void MissionLoop::check_start() {
+void MissionLoop::check_pose() {
+  PoseCheck& check = check_->check;
   const Pose2& T_local_robot = perception_.own_pose().T_map_robot;
-  if (!finder_->is_compared()) finder_->compare_with(modules_.T_map_start, T_local_robot);
+  if (!finder_->is_compared()) finder_->compare_with(check_->T_map_begin, T_local_robot);
   finder_->update(world_.observation, T_local_robot, perception_.own_grid(), world_.time_s);
   finder_->see_markers(world_.observation, T_local_robot, perception_.tracker().graph());
-  if (finder_->looks().size() > start_check_->looks().size()) start_check_->update(finder_->looks().back());
-  if (start_check_->trust() == StartTrust::carried) {
-    lose_itself();
-  } else if (start_check_->trust() == StartTrust::stayed) {
-    perception_.drop_own_map();
-    finder_.reset();
-  }
+  if (finder_->looks().size() > check.looks().size()) check.update(finder_->looks().back());
+  if (!check_->cause) start_check_ = check;
+  if (check.is_open()) return;
+  if (check_->cause) watch_->record({check_->begun_s, *check_->cause, check});
+  if (check.verdict() == PoseVerdict::carried) return lose_itself();
+  perception_.drop_own_map();
+  finder_.reset();
+  check_.reset();
+  watch_->begin_anew();
 }
 
-// What was drawn and recognised since the run began was in the wrong place.
+// What was drawn and recognised since was in the wrong place.
 void MissionLoop::lose_itself() {
-  world_.pose = perception_.own_pose();
-  world_.pose.trust = PoseTrust::lost;
-  world_.grid = &perception_.lose();
-  world_.coarse = nullptr;
-  saving_.leave_map_alone(true);
+  const std::size_t landmarks = world_.graph.landmarks().size();
+  const PoseEstimate own_pose = perception_.own_pose();
+  world_.lose(own_pose, perception_.lose(), check_->before->grid, check_->before->T_map_robot);
+  if (!check_->cause) saving_.leave_map_alone(true);
   localisation_ = finder_->figures();
-  const StartLook& look = start_check_->looks().back();
-  publisher_.publish(
-      Message{fmt::format("the robot is not where the map was left: it was carried while it was off, or the map is not "
-                          "of this place ({:.0f} "
-                          "% of what it has seen in {:.1f} m contradicts the map). It looks where it is; the map stays "
-                          "as it was until then",
-                          100.0 * look.believed.contradicted_ratio, look.driven_m)});
+  if (check_->cause)
+    watch_->record_carried({world_.time_s, counts_.figures().distance_m, check_->check.looks().back().driven_m});
+  publish_carried(landmarks - std::min(landmarks, world_.graph.landmarks().size()));
   steps_.lose();
+}
+
+void MissionLoop::publish_carried(std::size_t landmarks_forgotten) {
+  const PoseLook& look = check_->check.looks().back();
+  const std::string why = fmt::format("({:.0f} % of what it has seen in {:.1f} m contradicts the map)",
+                                      100.0 * look.believed.contradicted_ratio, look.driven_m);
+  if (check_->cause)
+    publisher_.publish(
+        Message{fmt::format("the robot is not where it was believed to be: it was carried, or has slipped {}. It looks "
+                            "where it is; the map "
+                            "is as it was some metres before that, {} forgotten",
+                            why, counted(landmarks_forgotten, "landmark"))});
+  else
+    publisher_.publish(Message{fmt::format(
+        "the robot is not where the map was left: it was carried while it was off, or the map is not of this place {}. "
+        "It looks where it is; the map stays as it was until then",
+        why)});
 }
 
 // From the tick on at which it is believed, all see the map and the robot's place in it.
@@ -86,9 +147,13 @@ void MissionLoop::find_itself() {
     world_.grid = &perception_.settle(localizer);
     world_.coarse = nullptr;
   } else {
-    world_.grid = &perception_.go_on(localizer, build_map(mission_, library_, &*grid_so_far_));
+    world_.grid = &perception_.go_on(localizer, build_map(mission_, library_, &check_->before->grid));
     world_.coarse = perception_.show_earlier_map();
+    world_.map_before = nullptr;
     saving_.leave_map_alone(false);
+    if (check_->cause) watch_->record_found(world_.time_s, localisation_->driven_m, T_map_robot);
+    check_.reset();
+    watch_->begin_anew();
   }
   world_.pose = perception_.localize(world_.observation);
   publisher_.publish(

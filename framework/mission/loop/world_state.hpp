@@ -28,15 +28,29 @@ struct WorldState {
   const Hierarchies* hierarchies = nullptr;  // for the names of clusters
   SpeedLaw speed_law{};                      // of the mission's collision monitor
   const LandmarkGraph no_landmarks{};
+  const OccupancyGrid* map_before = nullptr;  // of a robot that was carried, until it has found itself; else null
+  Pose2 T_map_before{};                       // where it was believed to be in that map last
 
   void observe(Observation seen, const std::optional<GroundTruth>& truth_then) {
     observation = std::move(seen);
     truth = truth_then;
     has_observation = true;
   }
+  // The robot was carried: from here on it draws a map of its own.
+  void lose(const PoseEstimate& own_pose, const OccupancyGrid& own_grid, const OccupancyGrid& before,
+            const Pose2& T_map_robot_before) {
+    pose = own_pose;
+    pose.trust = PoseTrust::lost;
+    grid = &own_grid;
+    coarse = nullptr;
+    map_before = &before;
+    T_map_before = T_map_robot_before;
+  }
   [[nodiscard]] bool is_lost() const { return pose.trust == PoseTrust::lost; }
   // Landmarks of a map have no place in the frame of a robot that is lost.
   [[nodiscard]] const LandmarkGraph& known_graph() const { return is_lost() ? no_landmarks : graph; }
+  // The mission's map: not what a robot draws that is lost. There must be a grid.
+  [[nodiscard]] const OccupancyGrid& mission_map() const { return map_before == nullptr ? *grid : *map_before; }
   // There must be a grid.
   [[nodiscard]] WorldView view() const;
   [[nodiscard]] double explored_ratio() const;  // 0 without a grid

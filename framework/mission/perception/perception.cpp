@@ -27,7 +27,7 @@ Perception::Perception(const Mission& mission, StagedModules& modules, const Bud
 void Perception::restore(const SavedMap& map) {
   tracker_.restore(map.graph, map.progress->candidates, map.driven_path);
   last_freed_check_s_ = map.progress->time_s;
-  is_resumed_ = true;
+  begins_with_map_ = true;
 }
 
 void Perception::leave_alone(const OccupancyGrid& map, LandmarkGraph graph, bool is_lost) {
@@ -43,20 +43,22 @@ const OccupancyGrid& Perception::settle(std::shared_ptr<Localizer> localizer) {
   return *grid_;
 }
 
-void Perception::draw_own_map(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper) {
+void Perception::draw_own_map(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper,
+                              const MapSnapshot& before) {
   const OccupancyGrid& grid = modules_.mapper.call([&](Mapper&) -> const OccupancyGrid& { return mapper->grid(); });
-  own_ = OwnMap{std::move(localizer), std::move(mapper), &grid};
-  before_ = Before{tracker_.graph(), tracker_.candidates(), tracker_.driven_path()};
+  own_ = OwnMap{std::move(localizer), std::move(mapper), &grid, {}, &before};
 }
 
 const OccupancyGrid& Perception::lose() {
-  tracker_.restore(std::move(before_->graph), std::move(before_->candidates), std::move(before_->driven_path));
+  const KnownLandmarks& before = own_->before->landmarks;
+  tracker_.restore(before.graph, before.candidates, before.driven_path);
   forgotten_ = grid_->bounds();
   grid_ = own_->grid;
   modules_.localizer.replace(std::move(own_->localizer));
   modules_.mapper.replace(std::move(own_->mapper));
   drop_own_map();
   use_ = MapUse::lost;
+  begins_with_map_ = true;
   history_ = nullptr;
   return *grid_;
 }
@@ -88,7 +90,7 @@ const OccupancyGrid& Perception::begin(bool records_poses) {
 
 // It is no change: a budget that allows no matching keeps old evidence from counting twice.
 const CoarseGrid* Perception::show_earlier_map() {
-  if (!is_resumed_ || !modules_.detector || grid_->bounds().empty()) return nullptr;
+  if (!begins_with_map_ || !modules_.detector || grid_->bounds().empty()) return nullptr;
   const std::atomic<bool> cancelled = true;
   Budget nothing;
   nothing.cancel = &cancelled;

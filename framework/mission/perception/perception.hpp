@@ -9,6 +9,7 @@
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/events.hpp"
 #include "framework/mission/held_out.hpp"
+#include "framework/mission/localisation/map_snapshots.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/perception/past.hpp"
 #include "framework/mission/perception/sighting_motion.hpp"
@@ -34,26 +35,23 @@ class Perception {
   void leave_alone(const OccupancyGrid& map, LandmarkGraph graph, bool is_lost);
   // The robot has found where in that map it is: from here on by this localizer. The map's grid.
   const OccupancyGrid& settle(std::shared_ptr<Localizer> localizer);
-  // Beside all else a small map is drawn by another localizer, which knows no map. Before begin().
-  void draw_own_map(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper);
+  // Beside all else a small map is drawn by another localizer, which knows no map. Before localize(). before: what
+  // lose() goes back to; it must outlive lose() or drop_own_map().
+  void draw_own_map(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper, const MapSnapshot& before);
   [[nodiscard]] bool draws_own_map() const { return own_.has_value(); }
   // By that localizer, and that map; while it is drawn.
   [[nodiscard]] const PoseEstimate& own_pose() const { return own_->pose; }
   [[nodiscard]] const OccupancyGrid& own_grid() const { return *own_->grid; }
-  // And what lose() would go back to.
-  void drop_own_map() {
-    own_.reset();
-    before_.reset();
-  }
+  void drop_own_map() { own_.reset(); }
   // Once, before all below: asks the mapper for its grid. Throws ModuleFault, as all below do.
   // records_poses: whether past() holds them also when the localizer never corrects any.
   const OccupancyGrid& begin(bool records_poses = false);
-  // The robot does not stand where an earlier run has left it: what was recognised since is forgotten (the last call of
-  // restore() holds again), and the own map takes the place of the other. Its grid.
+  // The robot is not where it was believed to be: what was recognised since the snapshot is forgotten, and the own map
+  // takes the place of the other. Its grid.
   const OccupancyGrid& lose();
   // The robot has found where it is: from here on by this localizer, and in this map. Its grid.
   const OccupancyGrid& go_on(std::shared_ptr<Localizer> localizer, std::shared_ptr<Mapper> mapper);
-  // Once, then, and after go_on(): shows the detector what an earlier run has mapped; its coarse grid.
+  // Once, then, and after go_on(): shows the detector what was mapped before; its coarse grid.
   const CoarseGrid* show_earlier_map();
 
   // The stages of a tick, in their order.
@@ -77,6 +75,13 @@ class Perception {
   // What the localizer knows of submaps; none from one that has none.
   [[nodiscard]] KeptSubmaps submaps();
   [[nodiscard]] const Past& past() const { return past_; }
+  // A localizer that corrects its past.
+  [[nodiscard]] bool has_history() const { return history_ != nullptr; }
+
+  // As they are now, for lose().
+  [[nodiscard]] KnownLandmarks known_landmarks() const {
+    return {tracker_.graph(), tracker_.candidates(), tracker_.driven_path()};
+  }
 
   [[nodiscard]] LandmarkTracker& tracker() { return tracker_; }
   [[nodiscard]] const LandmarkTracker& tracker() const { return tracker_; }
@@ -93,12 +98,7 @@ class Perception {
     std::shared_ptr<Mapper> mapper;
     const OccupancyGrid* grid = nullptr;
     PoseEstimate pose{};
-  };
-  // What restore() was given.
-  struct Before {
-    LandmarkGraph graph;
-    LandmarkGraph candidates;
-    std::vector<Pose2> driven_path;
+    const MapSnapshot* before = nullptr;
   };
   void localize_in_own_map(const Observation& observation);
   [[nodiscard]] Detected detect(const CellChanges& changes, const Budget& budget);
@@ -114,12 +114,11 @@ class Perception {
   const OccupancyGrid* grid_ = nullptr;
   CellChanges changes_;  // when the map was drawn anew
   double last_freed_check_s_ = 0.0;
-  bool is_resumed_ = false;
+  bool begins_with_map_ = false;
   MapUse use_ = MapUse::grows;
   const OccupancyGrid* map_left_alone_ = nullptr;
   const LandmarkGraph no_landmarks_;
   std::optional<OwnMap> own_;
-  std::optional<Before> before_;
   CellBox forgotten_;  // where something was drawn that lose() has forgotten
   bool records_poses_ = false;
   PoseHistory* history_ = nullptr;  // the localizer's

@@ -86,5 +86,75 @@ TEST(Carried, TheMapIsLeftAloneUntilTheRobotHasFoundItself) {
   EXPECT_EQ(text_of_file(folder / "moved.cairn"), before);
 }
 
+// Whether all is free within 0.2 m of there.
+bool is_in_the_open(const OccupancyGrid& map, const Cell& at) {
+  for (int y = at.y - 4; y <= at.y + 4; ++y)
+    for (int x = at.x - 4; x <= at.x + 4; ++x)
+      if (map.state({x, y}) != CellState::free) return false;
+  return true;
+}
+
+// Cells that are occupied in the open of the other map: walls drawn in a wrong place.
+int walls_in_the_open(const OccupancyGrid& map, const OccupancyGrid& before) {
+  int cells = 0;
+  const CellBox box = map.bounds();
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      cells += map.state({x, y}) == CellState::occupied && is_in_the_open(before, {x, y}) ? 1 : 0;
+  return cells;
+}
+
+TEST(CarriedUnderWay, TheRobotNoticesItFindsItselfAndItsMapHasNoWallsTwice) {
+  const auto folder = fresh_folder("carried_under_way");
+  const SavedMap before = load_map(map_left());
+  const std::string carried_s = std::to_string(before.progress->time_s + 60.0);
+  const Finished finished =
+      run_office(folder, {"--resume", map_left().string(), "--set",
+                          "sensor.faults=[{at_s: " + carried_s + ", kidnap: {to_m: [4.9, 1.0], angle_deg: 100}}]"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto summary = nlohmann::json::parse(finished.out);
+  EXPECT_EQ(summary["start_check"]["trust"], "stayed");
+  ASSERT_EQ(summary["carried"].size(), 1U) << finished.out;
+  EXPECT_TRUE(summary["carried"][0].contains("found_s"));
+  EXPECT_EQ(summary["doubts"].back()["trust"], "carried");
+  EXPECT_EQ(summary["localisation"]["trust"], "tracking");
+  EXPECT_LT(summary["pose_error"]["last_m"].get<double>(), 0.2);
+  EXPECT_THAT(events_of(folder), testing::HasSubstr("not where it was believed to be"));
+  const SavedMap after = load_map(folder / "office.cairn");
+  EXPECT_LT(walls_in_the_open(after.grid, before.grid), 8);
+  EXPECT_EQ(after.graph.landmarks().size(), before.graph.landmarks().size());
+}
+
+// It has been on its way for long: what it knew before is not lost with the place.
+TEST(CarriedUnderWay, ARunThatEndsWhileItsRobotIsLostSavesTheMapFromBefore) {
+  const auto folder = fresh_folder("carried_under_way_lost");
+  const SavedMap before = load_map(map_left());
+  const double carried_s = before.progress->time_s + 60.0;
+  const std::string fault =
+      "sensor.faults=[{at_s: " + std::to_string(carried_s) + ", kidnap: {to_m: [4.9, 1.0], angle_deg: 100}}]";
+  const auto noticed = nlohmann::json::parse(run_office(folder, {"--resume", map_left().string(), "--set", fault}).out);
+  ASSERT_EQ(noticed["carried"].size(), 1U);
+  const double end_s = noticed["carried"][0]["noticed_s"].get<double>() + 3.0;
+  const Finished finished = run_office(
+      folder, {"--resume", map_left().string(), "--set", fault, "--set", "at_most_s=" + std::to_string(end_s)});
+  EXPECT_EQ(nlohmann::json::parse(finished.out)["localisation"]["trust"], "lost");
+  const SavedMap after = load_map(folder / "office.cairn");
+  EXPECT_LT(walls_in_the_open(after.grid, before.grid), 8);
+  EXPECT_EQ(after.graph.landmarks().size(), before.graph.landmarks().size());
+}
+
+TEST(CarriedUnderWay, PeopleAndDoorsDoNotMakeARobotBelieveThatItWasCarried) {
+  const auto folder = fresh_folder("carried_under_way_not");
+  const Finished finished =
+      run_cairn({"run", source_folder() + "/config/missions/busy_office.yaml", "--out", folder.string(), "--json",
+                 "--set", "at_most_s=700", "--set",
+                 "steps=[{force_success: {explore: {until_known_ratio: 0.9, at_most_s: 400}}}, "
+                 "{repeat: {times: 9, do: [{force_success: {patrol: {rounds: 1, skip: true}}}]}}]"});
+  const auto summary = nlohmann::json::parse(finished.out);
+  EXPECT_GT(summary["distance_m"].get<double>(), 25.0);
+  EXPECT_FALSE(summary.contains("carried")) << finished.out;
+  EXPECT_LT(summary["pose_error"]["worst_m"].get<double>(), 0.3);
+}
+
 }  // namespace
 }  // namespace cairn::testing_program

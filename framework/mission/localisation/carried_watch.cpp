@@ -1,0 +1,39 @@
+#include "framework/mission/localisation/carried_watch.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kMaxDoubts = 100;  // that are kept for the report
+
+}  // namespace
+
+// What is drawn while much contradicts the map may be in the wrong place.
+void CarriedWatch::update(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& map,
+                          const Landmarks& landmarks) {
+  const bool is_due = snapshots_.drive(T_map_robot);
+  if (is_due && doubt_.is_quiet() && map.bytes() <= MapSnapshots::kMaxBytes)
+    snapshots_.add(std::make_shared<const MapSnapshot>(MapSnapshot{map, landmarks(), T_map_robot}));
+  if (const auto before = snapshots_.oldest()) cause_ = doubt_.update(observation, T_map_robot, before->grid);
+}
+
+void CarriedWatch::begin_anew() {
+  doubt_.reset();
+  snapshots_.clear();
+  cause_.reset();
+}
+
+void CarriedWatch::record(DoubtRecord doubt) {
+  if (figures_.doubts.size() < kMaxDoubts)
+    figures_.doubts.push_back(std::move(doubt));
+  else
+    ++figures_.doubts_left_out;
+}
+
+void CarriedWatch::record_found(double time_s, double searched_m, const Pose2& T_map_robot) {
+  CarriedRecord& last = figures_.carried.back();
+  last.found_s = time_s;
+  last.searched_m = searched_m;
+  last.T_map_robot = T_map_robot;
+}
+
+}  // namespace cairn
