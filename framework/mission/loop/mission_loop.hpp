@@ -95,6 +95,7 @@ class MissionLoop {
   void finish();
   void save_last();
   void redraw_map();
+  void move_map();
   void begin_localisation(const LocaliseIn& localise);
   void begin_start_check();
   [[nodiscard]] bool is_start_open() const;

@@ -11,6 +11,7 @@
 #include "framework/mission/held_out.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/perception/past.hpp"
+#include "framework/mission/perception/redraw.hpp"
 
 namespace cairn {
 
@@ -64,12 +65,17 @@ class Perception {
   [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s,
                                       std::span<const MarkerSighting> markers = {});
 
-  // Whether the localizer has corrected the past so far that the map should be drawn anew (after localize()).
-  [[nodiscard]] bool is_map_moved();
+  // Whether the localizer has corrected the past so far that the map should be drawn anew (after localize()). Until
+  // that is done the map, the landmarks and poses stay in the frame that they are in.
+  [[nodiscard]] bool is_map_moved() const;
+  // Begins to draw the past at its corrected poses into a map that holds none of it.
+  void begin_redraw(std::shared_ptr<Mapper> map);
+  // After localize(), at every tick: draws a slice. With the last one the new map takes the place of the map so far,
+  // the pose moves with it, and its grid is returned; the detector gets all of it the next time. Else null.
+  const OccupancyGrid* redraw_slice(PoseEstimate& pose);
   // After the last observation: the last corrections. Whether the map should be drawn anew.
   [[nodiscard]] bool finish();
-  // Draws the past at its corrected poses into a map that holds none of it, which takes the place of the map so far.
-  // Its grid. The detector gets all of it the next time.
+  // All of it at once; its grid. A run that is cancelled meanwhile keeps the map that it has.
   const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
   // What the localizer knows of submaps; none from one that has none.
   [[nodiscard]] KeptSubmaps submaps();
@@ -100,6 +106,9 @@ class Perception {
   void localize_in_own_map(const Observation& observation);
   [[nodiscard]] Detected detect(const CellChanges& changes, const Budget& budget);
   [[nodiscard]] double correct_past(std::size_t newer);
+  void follow_corrections();
+  void draw_slice();
+  void exchange_maps();
   void add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const;
 
   const MissionConfig& config_;
@@ -117,13 +126,15 @@ class Perception {
   const LandmarkGraph no_landmarks_;
   std::optional<OwnMap> own_;
   std::optional<Before> before_;
-  CellBox forgotten_;  // where something was drawn that lose() has forgotten
+  CellBox forgotten_;  // where something was drawn in the map before, if there was one
   bool records_poses_ = false;
   PoseHistory* history_ = nullptr;  // the localizer's
   Past past_;
   std::vector<Pose2> corrected_;  // of the past, by the revision below
   std::uint64_t revision_ = 0;
-  std::size_t drawn_ = 0;  // size of the past when the map was last drawn anew
+  DrawnFrame frame_;              // of the map
+  std::optional<Redraw> redraw_;  // under way
+  std::size_t drawn_ = 0;         // size of the past when the map was last drawn anew
   bool is_redrawn_ = false;
 };
 
