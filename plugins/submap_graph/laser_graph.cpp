@@ -28,8 +28,17 @@ LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start)
 Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s) {
   take_answer_when_due(stamp_s);
   const Pose2 T_map_robot = place(points_m, T_odom_robot);
+  T_odom_robot_ = T_odom_robot;
   if (!search_ && !stretch_.nodes.empty()) begin_search(stamp_s);
   return T_map_robot;
+}
+
+Pose2 LaserGraph::pass(const Pose2& T_odom_robot, double stamp_s) {
+  take_answer_when_due(stamp_s);
+  const Scan last = scans_.back();
+  scans_.push_back({last.node, last.T_node_scan * (inverse(T_odom_robot_) * T_odom_robot)});
+  T_odom_robot_ = T_odom_robot;
+  return T_map(scans_.back());
 }
 
 Pose2 LaserGraph::place(std::span<const Point> points_m, const Pose2& T_odom_robot) {

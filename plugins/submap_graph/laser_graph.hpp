@@ -35,6 +35,8 @@ class LaserGraph {
 
   // A scan as seen from the robot. Where the robot is.
   Pose2 add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s);
+  // Between two scans. Where the robot is, by odometry since the last one; there must have been one.
+  Pose2 pass(const Pose2& T_odom_robot, double stamp_s);
   // Seen at the scan that was added last.
   void see(const MarkerSighting& sighting);
   // After the last scan, until it returns false: searches closures of all nodes with all submaps, some nodes a call,
@@ -78,7 +80,8 @@ class LaserGraph {
   LocalMap local_map_;
   MarkerClosures marker_closures_;
   GatheredEchoes gathered_;
-  std::vector<Scan> scans_;
+  std::vector<Scan> scans_;  // and what was passed between them
+  Pose2 T_odom_robot_;       // at the last of them
   std::vector<Pose2> T_map_node_;
   double driven_m_ = 0.0;  // to the latest node
   double trusted_at_m_ = 0.0;

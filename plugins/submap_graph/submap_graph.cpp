@@ -41,11 +41,17 @@ PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&
   if (is_usable(observation.T_odom_robot) || !T_odom_robot_)
     T_odom_robot_ = is_usable(observation.T_odom_robot) ? observation.T_odom_robot : Pose2{};
   PoseEstimate estimate;
-  estimate.T_map_robot = graph_.add(points_m_, *T_odom_robot_, observation.stamp_s);
+  const bool is_scan = config_.sweep_s <= 0.0 || sweep_.add(points_m_, *T_odom_robot_, observation.stamp_s);
+  if (is_scan) {
+    const std::span<const Point> scan_m = config_.sweep_s <= 0.0 ? points_m_ : sweep_.take();
+    estimate.T_map_robot = graph_.add(scan_m, *T_odom_robot_, observation.stamp_s);
+  } else {
+    estimate.T_map_robot = graph_.pass(*T_odom_robot_, observation.stamp_s);
+  }
   for (const MarkerSighting& sighting : observation.markers) graph_.see(sighting);
   node_stamps_s_.resize(graph_.nodes(), observation.stamp_s);
   estimate.covariance = graph_.covariance();
-  (graph_.matched_ratio() >= kMatched_ratio ? estimate.sightings_used : estimate.sightings_refused) = 1;
+  if (is_scan) (graph_.matched_ratio() >= kMatched_ratio ? estimate.sightings_used : estimate.sightings_refused) = 1;
   return estimate;
 }
 

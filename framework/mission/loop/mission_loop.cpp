@@ -206,6 +206,7 @@ void MissionLoop::move_map() {
   if (grid == nullptr) return;
   world_.grid = grid;
   world_.coarse = nullptr;
+  steps_.move_places(*perception_.last_move());
 }
 
 // The robot stands, and nothing comes any more.

@@ -1,6 +1,7 @@
 #include "framework/mission/perception/perception.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "framework/contracts/optional/pose_graph_report.hpp"
 #include "framework/modules/plausibility.hpp"
@@ -189,8 +190,12 @@ void Perception::draw_slice() {
 
 void Perception::exchange_maps() {
   modules_.mapper.replace(redraw_->map());
+  std::vector<Pose2> before;
+  before.reserve(past_.size());
+  for (const StampedPose& pose : past_.poses()) before.push_back(pose.T_map_robot);
+  last_move_.emplace(std::move(before), redraw_->T_map_robot());
+  moved_ = tracker_.move(*last_move_);
   past_.correct(redraw_->T_map_robot());
-  tracker_.correct_path(redraw_->T_map_robot());
   frame_ = redraw_->frame();
   redraw_.reset();
   drawn_ = past_.size();
@@ -244,6 +249,7 @@ Perception::Detected Perception::detect(const CellChanges& changes, const Budget
 Recognition Perception::recognise(const CellChanges& changes, double time_s, std::span<const MarkerSighting> markers) {
   Recognition recognised;
   if (use_ == MapUse::lost) return recognised;
+  add_events(std::exchange(moved_, {}), recognised.events);
   if (config_.markers && use_ == MapUse::grows) add_events(tracker_.update(markers), recognised.events);
   if (!modules_.detector) return recognised;
   auto [report, coarse] = detect(changes, budget_);

@@ -73,6 +73,8 @@ class Perception {
   // After localize(), at every tick: draws a slice. With the last one the new map takes the place of the map so far,
   // the pose moves with it, and its grid is returned; the detector gets all of it the next time. Else null.
   const OccupancyGrid* redraw_slice(PoseEstimate& pose);
+  // How the map moved when it was last exchanged; none: it never was.
+  [[nodiscard]] const std::optional<MapMove>& last_move() const { return last_move_; }
   // After the last observation: the last corrections. Whether the map should be drawn anew.
   [[nodiscard]] bool finish();
   // All of it at once; its grid. A run that is cancelled meanwhile keeps the map that it has.
@@ -134,7 +136,9 @@ class Perception {
   std::uint64_t revision_ = 0;
   DrawnFrame frame_;              // of the map
   std::optional<Redraw> redraw_;  // under way
-  std::size_t drawn_ = 0;         // size of the past when the map was last drawn anew
+  std::optional<MapMove> last_move_;
+  std::vector<LandmarkTracker::Change> moved_;  // by it, not told yet
+  std::size_t drawn_ = 0;                       // size of the past when the map was last drawn anew
   bool is_redrawn_ = false;
 };
 

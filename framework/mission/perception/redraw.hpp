@@ -17,7 +17,7 @@ namespace cairn {
 class DrawnFrame {
  public:
   // The map is drawn anew when one of its poses has moved so far. Until then it is good enough, and the frames are one.
-  static constexpr double kRedrawAfter_m = 0.3;
+  static constexpr double kRedrawAfter_m = 0.1;
 
   // The past has been corrected: the longest way by which one of the map's poses has moved, and the last of them.
   void correct(double moved_m, const Pose2& T_drawn_last, const Pose2& T_map_last);
