@@ -176,6 +176,13 @@ void LandmarkAssociation::renamed(LandmarkRef from, LandmarkRef to) {
       if (relation.landmark == from) relation.landmark = to;
 }
 
+void LandmarkAssociation::forget_places() {
+  recent_.clear();
+  shift_ = {};
+  common_m2_ = 0.0;
+  for (auto& [landmark, anchor] : anchors_) anchor.shift = {};
+}
+
 void LandmarkAssociation::forget(LandmarkRef landmark) {
   anchors_.erase(landmark);
   for (Sight& sight : recent_)

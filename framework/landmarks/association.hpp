@@ -44,6 +44,8 @@ class LandmarkAssociation {
   void placed(LandmarkRef landmark);
   void renamed(LandmarkRef from, LandmarkRef to);
   void forget(LandmarkRef landmark);
+  // The map has been drawn anew: what was seen lately has no place in it, and no error that was common to it is left.
+  void forget_places();
   // Degrees of one matching that are further apart than this are of two landmarks.
   [[nodiscard]] double split_m() const;
 

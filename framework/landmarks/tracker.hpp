@@ -12,6 +12,7 @@
 #include "framework/landmarks/association.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/connector.hpp"
+#include "framework/landmarks/map_move.hpp"
 #include "framework/landmarks/marker_tracker.hpp"
 #include "maps/geometry/contour.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
@@ -52,8 +53,9 @@ class LandmarkTracker {
 
   // Remembers where the robot has been, and how well it knew that. At every tick.
   void record_pose(const PoseEstimate& pose);
-  // Where the robot has been, by what is known now. Markers move with it.
-  [[nodiscard]] std::vector<Change> correct_path(const std::vector<Pose2>& T_map_robot);
+  // The map has been drawn anew. The path, and what was seen on it, move along: each landmark and candidate as the pose
+  // from which it was placed, each point of a route as the way near by. What an earlier run has seen stays.
+  [[nodiscard]] std::vector<Change> move(const MapMove& move);
   // Brings approach poses and routes up to date (LandmarkConnector).
   void connect(const WorldView& world, const LandmarkConnector::Plan& plan, std::uint64_t seed) {
     connector_.connect(graph_, driven_, world, plan, seed);
@@ -75,6 +77,9 @@ class LandmarkTracker {
   void merge_beside(LandmarkId id, std::vector<Change>& changes);
   void name_marker_categories();
   void place_marker(const MarkerId& marker, std::vector<Change>& changes);
+  void note_places();
+  void move_landmarks(const MapMove& move, std::vector<Change>& changes);
+  void move_routes(const MapMove& move);
 
   LandmarksConfig config_;
   std::vector<LandmarkShape> shapes_;
@@ -86,6 +91,12 @@ class LandmarkTracker {
   MarkerTracker markers_;
   std::map<int, std::string> marker_categories_;  // by number
   int confirm_marker_sightings_ = 3;
+  // Where a landmark or candidate was placed last, and from which of the robot's poses; none: in an earlier run.
+  struct Placed {
+    Pose2 T_map_landmark;
+    std::optional<std::size_t> pose_number;
+  };
+  std::map<LandmarkRef, Placed> placed_;
   PoseEstimate pose_;  // the one recorded last
   std::size_t poses_ = 0;
 };

@@ -122,7 +122,8 @@ std::vector<Closure> Closer::witnessed(const std::vector<Closure>& found) {
 
 std::vector<Closure> Closer::close(std::size_t node, const TiedGraph& graph,
                                    std::span<const std::shared_ptr<const Submap>> finished) {
-  const double window_m = std::min(config_.min_window_m + config_.drift_ratio * untied_m(node), config_.max_window_m);
+  const double window_m =
+      std::min(config_.min_window_m + config_.drift_ratio * (driven_m_[node] - trusted_at_m_), config_.max_window_m);
   std::erase_if(waiting_, [&](const Waiting& waiting) {
     return driven_m_[node] - driven_m_[waiting.closure.node] > config_.witness_m;
   });

@@ -26,8 +26,8 @@ class Closer {
   [[nodiscard]] std::vector<Closure> close_again(std::size_t node, const TiedGraph& graph,
                                                  std::span<const std::shared_ptr<const Submap>> finished);
 
-  // The way since the node was last tied to a place that was passed before.
-  [[nodiscard]] double untied_m(std::size_t node) const { return driven_m_[node] - trusted_at_m_; }
+  // The way at which the pose was last tied to a place that was passed before.
+  [[nodiscard]] double trusted_at_m() const { return trusted_at_m_; }
 
  private:
   struct Waiting {
@@ -52,7 +52,7 @@ class Closer {
   std::vector<std::vector<Point>> points_m_;  // of the nodes
   std::vector<Pose2> T_local_node_;           // the way, never corrected
   std::vector<double> driven_m_;
-  double trusted_at_m_ = 0.0;  // the way at which the pose was last tied to an older submap
+  double trusted_at_m_ = 0.0;
   std::vector<Waiting> waiting_;
   std::vector<std::pair<const Submap*, std::unique_ptr<FieldPyramid>>> pyramids_;  // the latest used first
 };

@@ -8,6 +8,9 @@ void Config::describe(Fields<Config>& fields) {
                 "of a scan's echoes in one square of this side the first is used; 0: all");
   fields.angle("widest_half_beam_deg", &Config::widest_half_beam_rad, {0.0, 90.0},
                "readings of wider beams are left out: their echoes are no points");
+  fields.number("sweep_s", &Config::sweep_s, {0.0, 60.0}, "s",
+                "a laser that turns shows a part of its round in each observation: what comes in so much time is one "
+                "scan, put together by odometry; 0: each observation is one");
   fields.number("surface_cell_m", &Config::surface_cell_m, {0.01, 10.0}, "m",
                 "side of a submap's cells; the line of a cell is fitted to its echoes and its neighbours'");
   fields.number("echo_sigma_m", &Config::echo_sigma_m, {0.001, 10.0}, "m", "standard deviation of one echo");

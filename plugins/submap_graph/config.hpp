@@ -13,6 +13,7 @@ struct Config {
   double longest_m = 30.0;
   double point_spacing_m = 0.04;
   double widest_half_beam_rad = radians(1.0);
+  double sweep_s = 0.0;
   // Matching with the submap under way.
   double surface_cell_m = 0.1;
   double echo_sigma_m = 0.03;

@@ -1,7 +1,9 @@
 #include "plugins/submap_graph/submap_graph.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 namespace cairn::submap_graph {
 namespace {
@@ -39,11 +41,17 @@ PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&
   if (is_usable(observation.T_odom_robot) || !T_odom_robot_)
     T_odom_robot_ = is_usable(observation.T_odom_robot) ? observation.T_odom_robot : Pose2{};
   PoseEstimate estimate;
-  estimate.T_map_robot = graph_.add(points_m_, *T_odom_robot_);
+  const bool is_scan = config_.sweep_s <= 0.0 || sweep_.add(points_m_, *T_odom_robot_, observation.stamp_s);
+  if (is_scan) {
+    const std::span<const Point> scan_m = config_.sweep_s <= 0.0 ? points_m_ : sweep_.take();
+    estimate.T_map_robot = graph_.add(scan_m, *T_odom_robot_, observation.stamp_s);
+  } else {
+    estimate.T_map_robot = graph_.pass(*T_odom_robot_, observation.stamp_s);
+  }
   for (const MarkerSighting& sighting : observation.markers) graph_.see(sighting);
-  node_stamps_s_.resize(graph_.graph().size(), observation.stamp_s);
+  node_stamps_s_.resize(graph_.nodes(), observation.stamp_s);
   estimate.covariance = graph_.covariance();
-  (graph_.matched_ratio() >= kMatched_ratio ? estimate.sightings_used : estimate.sightings_refused) = 1;
+  if (is_scan) (graph_.matched_ratio() >= kMatched_ratio ? estimate.sightings_used : estimate.sightings_refused) = 1;
   return estimate;
 }
 
@@ -53,7 +61,7 @@ KeptSubmaps SubmapGraph::submaps() const {
   const auto number_of = [](std::size_t node) { return static_cast<std::int64_t>(node); };
   kept.nodes.reserve(graph.size());
   for (std::size_t node = 0; node < graph.size(); ++node)
-    kept.nodes.push_back({number_of(node), node_stamps_s_[node], graph.T_map(node)});
+    kept.nodes.push_back({number_of(node), node_stamps_s_[node], graph_.T_map(node)});
   kept.edges.reserve(graph.ties().size() + graph.closures().size());
   for (const PoseEdge& tie : graph.ties())
     kept.edges.push_back({number_of(tie.from), number_of(tie.to), tie.T_from_to, tie.information, false, true});
@@ -62,7 +70,10 @@ KeptSubmaps SubmapGraph::submaps() const {
     kept.edges.push_back({number_of(closure.anchor), number_of(closure.node), closure.T_anchor_node,
                           closure.information, true, graph.is_believed()[i]});
   }
-  const auto& submaps = graph_.local_map().submaps();
+  const auto is_unknown = [&](const auto& submap) { return submap->anchor() >= graph.size(); };
+  const auto& all = graph_.local_map().submaps();
+  const auto end = std::find_if(all.begin(), all.end(), is_unknown);
+  const std::span submaps(all.begin(), end);
   const std::size_t first = submaps.size() - std::min(submaps.size(), KeptSubmaps::kMax);
   for (std::size_t i = first; i < submaps.size(); ++i) {
     KeptSubmap submap{.anchor = number_of(submaps[i]->anchor()),

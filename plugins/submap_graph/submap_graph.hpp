@@ -21,12 +21,14 @@
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/optional/pose_graph_report.hpp"
 #include "plugins/submap_graph/laser_graph.hpp"
+#include "plugins/submap_graph/sweep.hpp"
 
 namespace cairn::submap_graph {
 
 class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraphReport {
  public:
-  SubmapGraph(const Config& config, const Pose2& T_map_start) : config_(config), graph_(config, T_map_start) {}
+  SubmapGraph(const Config& config, const Pose2& T_map_start)
+      : config_(config), sweep_(config.sweep_s), graph_(config, T_map_start) {}
 
   PoseEstimate update(const Observation& observation, const KnownMap& known) override;
   PoseHistory* history() override { return this; }
@@ -38,10 +40,11 @@ class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraph
 
  private:
   Config config_;
+  Sweep sweep_;
   LaserGraph graph_;
   std::vector<double> node_stamps_s_;
   std::optional<Pose2> T_odom_robot_;  // the last good one
-  std::vector<Point> points_m_;        // of this scan, from the robot
+  std::vector<Point> points_m_;        // of this observation, from the robot
 };
 
 // A scan's echoes as points, thinned.

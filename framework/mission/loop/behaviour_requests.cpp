@@ -123,6 +123,11 @@ void BehaviourRequests::output(const std::string& name, const Place& place) {
   values_[name] = place;
 }
 
+void BehaviourRequests::move_places(const MapMove& move) {
+  for (auto& [name, place] : values_)
+    if (place.pose) place.pose = move.near(place.pose->position()) * *place.pose;
+}
+
 Status BehaviourRequests::name_landmark(LandmarkId id, const std::string& name) {
   const StageClock::Visit visit(host_.clock, StageClock::kHost);
   const LandmarkGraph& graph = host_.tracker.graph();

@@ -44,6 +44,8 @@ class BehaviourRequests final : public BehaviourContext {
   LeafRequests take() { return std::exchange(asked_, {}); }
   [[nodiscard]] const NamedValues& values() const { return values_; }
   void restore(NamedValues values) { values_ = std::move(values); }
+  // The map has been drawn anew.
+  void move_places(const MapMove& move);
 
   void drive(const Twist& wanted) override;
   ControlResult control(const ControlRequest& request) override;

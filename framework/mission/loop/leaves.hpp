@@ -29,6 +29,7 @@ class Leaves final : public TreeHost {
   // Places that behaviours hand to later ones.
   [[nodiscard]] const NamedValues& values() const { return requests_.values(); }
   void restore(NamedValues values) { requests_.restore(std::move(values)); }
+  void move_places(const MapMove& move) { requests_.move_places(move); }
   [[nodiscard]] const NodeRuns& runs() const { return runs_; }
   [[nodiscard]] const NodeTimes& times() const { return times_; }
   // The behaviour that was ticked last has asked for a save that failed: how it ends matters less than where it drives.

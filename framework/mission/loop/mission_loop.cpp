@@ -139,7 +139,7 @@ void MissionLoop::tick(Sensed sensed) {
     return perception_.localize(observation);
   });
   in(stages.perception, [&] { look_where_robot_is(); });
-  if (perception_.is_map_moved()) in(stages.perception, [&] { redraw_map(); });
+  in(stages.perception, [&] { move_map(); });
   const std::vector<ExpectedEcho> expected = in(stages.echo_prediction, [&] { return expected_of(observation); });
   const CellChanges& cells = in(stages.perception, [&]() -> const CellChanges& {
     return perception_.map(observation, world_.pose, monitor_.hearing().deaf());
@@ -202,10 +202,21 @@ void MissionLoop::show() {
 }
 
 // All that look on see the old map or the new one, never a part.
+void MissionLoop::move_map() {
+  if (perception_.is_map_moved())
+    perception_.begin_redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
+  const OccupancyGrid* const grid = perception_.redraw_slice(world_.pose);
+  if (grid == nullptr) return;
+  world_.grid = grid;
+  world_.coarse = nullptr;
+  steps_.move_places(*perception_.last_move());
+}
+
+// The robot stands, and nothing comes any more.
 void MissionLoop::redraw_map() {
   world_.grid = &perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
   world_.coarse = nullptr;
-  for (const Event& event : perception_.take_corrected_landmarks()) publisher_.publish(event);
+  for (const Event& event : perception_.take_moved_landmarks()) publisher_.publish(event);
 }
 
 // By the map as it was before this observation.

@@ -103,6 +103,7 @@ class MissionLoop {
   void finish();
   void save_last();
   void redraw_map();
+  void move_map();
   void begin_localisation(const LocaliseIn& localise);
   void begin_watch();
   void begin_check(std::shared_ptr<const MapSnapshot> before, const Pose2& T_map_robot,

@@ -31,6 +31,9 @@ class Steps {
   // The robot does not know where it is any more. The step under way waits, and what it does then begins afresh.
   void lose();
 
+  // The map has been drawn anew: places that behaviours hand over move along.
+  void move_places(const MapMove& move) { leaves_.move_places(move); }
+
   // Throws ModuleFault.
   StepsTick tick(double time_s);
   // The step under way, if any, is left. Sentences on modules that failed meanwhile.

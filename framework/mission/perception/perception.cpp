@@ -1,6 +1,7 @@
 #include "framework/mission/perception/perception.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "framework/contracts/optional/pose_graph_report.hpp"
 #include "framework/modules/plausibility.hpp"
@@ -9,8 +10,7 @@
 namespace cairn {
 namespace {
 
-constexpr double kFreedCheck_s = 1.0;  // between looks at the places of all landmarks
-constexpr double kRedrawAfter_m = 0.3;
+constexpr double kFreedCheck_s = 1.0;         // between looks at the places of all landmarks
 constexpr std::size_t kRedrawAfterPart = 10;  // of the past must be new, so that drawing costs no more than its share
 
 }  // namespace
@@ -60,6 +60,8 @@ const OccupancyGrid& Perception::lose() {
   use_ = MapUse::lost;
   begins_with_map_ = true;
   history_ = nullptr;
+  frame_ = {};
+  redraw_.reset();
   return *grid_;
 }
 
@@ -116,6 +118,8 @@ PoseEstimate Perception::localize(const Observation& observation) {
   PoseEstimate pose =
       modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, known); });
   if (const std::string fault = fault_of(pose); !fault.empty()) throw modules_.localizer.fault(fault);
+  follow_corrections();
+  pose = moved(frame_.T_drawn_map(), pose);
   if (own_) localize_in_own_map(observation);
   pose.trust = use_ == MapUse::lost ? PoseTrust::lost : PoseTrust::tracking;
   return pose;
@@ -137,6 +141,7 @@ const CellChanges& Perception::map(const Observation& observation, const PoseEst
   const Observation& seen = all ? observation : for_map_;
   if (own_) modules_.mapper.call([&](Mapper&) { own_->mapper->integrate(seen, own_->pose); });
   if (records_poses_ && use_ != MapUse::lost) past_.add(seen, pose.T_map_robot);
+  if (redraw_) redraw_->add(redraw_->frame().T_drawn_map() * inverse(frame_.T_drawn_map()) * pose.T_map_robot);
   if (use_ == MapUse::left_alone) {
     changes_ = {};
     return changes_;
@@ -145,7 +150,7 @@ const CellChanges& Perception::map(const Observation& observation, const PoseEst
       modules_.mapper.call([&](Mapper& mapper) -> const CellChanges& { return mapper.integrate(seen, pose); });
   if (!is_redrawn_) return changes;
   is_redrawn_ = false;
-  changes_ = everything_in(grid_->bounds());
+  changes_ = everything_in(united(grid_->bounds(), forgotten_));
   return changes_;
 }
 
@@ -162,10 +167,55 @@ double Perception::correct_past(std::size_t newer) {
   return past_.moved_m(corrected_);
 }
 
-bool Perception::is_map_moved() {
-  if (history_ == nullptr || past_.size() < drawn_ + drawn_ / kRedrawAfterPart) return false;
-  if (modules_.localizer.call([&](Localizer&) { return history_->revision(); }) == revision_) return false;
-  return correct_past(1) > kRedrawAfter_m;
+// The map keeps its frame until it is drawn anew, and what is drawn meanwhile keeps its own.
+void Perception::follow_corrections() {
+  if (history_ == nullptr || past_.size() == 0) return;
+  if (modules_.localizer.call([&](Localizer&) { return history_->revision(); }) == revision_) return;
+  const double moved_m = correct_past(1);
+  frame_.correct(moved_m, past_.poses().back().T_map_robot, corrected_.back());
+  if (redraw_) redraw_->correct(corrected_);
+}
+
+bool Perception::is_map_moved() const {
+  return frame_.is_outdated() && !redraw_ && past_.size() >= drawn_ + drawn_ / kRedrawAfterPart;
+}
+
+void Perception::begin_redraw(std::shared_ptr<Mapper> map) {
+  // Observations since the correction.
+  for (std::size_t i = corrected_.size(); i < past_.size(); ++i)
+    corrected_.push_back(inverse(frame_.T_drawn_map()) * past_.poses()[i].T_map_robot);
+  redraw_.emplace(std::move(map), grid_->cell_m(), corrected_);
+}
+
+void Perception::draw_slice() {
+  redraw_->draw_slice(past_, [&](Mapper& map, const Observation& seen, const PoseEstimate& pose) {
+    modules_.mapper.call([&](Mapper&) { map.integrate(seen, pose); });
+  });
+}
+
+void Perception::exchange_maps() {
+  modules_.mapper.replace(redraw_->map());
+  std::vector<Pose2> before;
+  before.reserve(past_.size());
+  for (const StampedPose& pose : past_.poses()) before.push_back(pose.T_map_robot);
+  last_move_.emplace(std::move(before), redraw_->T_map_robot());
+  moved_ = tracker_.move(*last_move_);
+  past_.correct(redraw_->T_map_robot());
+  frame_ = redraw_->frame();
+  redraw_.reset();
+  drawn_ = past_.size();
+  is_redrawn_ = true;
+  forgotten_ = grid_->bounds();
+  grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
+}
+
+const OccupancyGrid* Perception::redraw_slice(PoseEstimate& pose) {
+  if (!redraw_) return nullptr;
+  draw_slice();
+  if (!redraw_->is_done()) return nullptr;
+  pose = moved(redraw_->frame().T_drawn_map() * inverse(frame_.T_drawn_map()), pose);
+  exchange_maps();
+  return grid_;
 }
 
 bool Perception::finish() {
@@ -184,18 +234,17 @@ KeptSubmaps Perception::submaps() {
 }
 
 const OccupancyGrid& Perception::redraw(std::shared_ptr<Mapper> map) {
-  modules_.mapper.replace(std::move(map));
-  past_.correct(corrected_);
-  add_events(tracker_.correct_path(corrected_), corrected_landmarks_);
-  for (std::size_t i = 0; i < past_.size() && !budget_.cancelled(); ++i) {
-    const Observation seen = past_.observation(i);
-    const PoseEstimate pose{corrected_[i]};
-    modules_.mapper.call([&](Mapper& mapper) { mapper.integrate(seen, pose); });
-  }
-  drawn_ = past_.size();
-  is_redrawn_ = true;
-  grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
+  redraw_.emplace(std::move(map), grid_->cell_m(), corrected_);
+  while (!redraw_->is_done() && !budget_.cancelled()) draw_slice();
+  if (redraw_->is_done()) exchange_maps();
+  redraw_.reset();
   return *grid_;
+}
+
+std::vector<Event> Perception::take_moved_landmarks() {
+  std::vector<Event> events;
+  add_events(std::exchange(moved_, {}), events);
+  return events;
 }
 
 Perception::Detected Perception::detect(const CellChanges& changes, const Budget& budget) {
@@ -211,6 +260,7 @@ Perception::Detected Perception::detect(const CellChanges& changes, const Budget
 Recognition Perception::recognise(const CellChanges& changes, double time_s, std::span<const MarkerSighting> markers) {
   Recognition recognised;
   if (use_ == MapUse::lost) return recognised;
+  add_events(std::exchange(moved_, {}), recognised.events);
   if (config_.markers && use_ == MapUse::grows) add_events(tracker_.update(markers), recognised.events);
   if (!modules_.detector) return recognised;
   auto [report, coarse] = detect(changes, budget_);

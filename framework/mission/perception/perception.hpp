@@ -13,6 +13,7 @@
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/perception/past.hpp"
 #include "framework/mission/perception/sighting_motion.hpp"
+#include "framework/mission/perception/redraw.hpp"
 
 namespace cairn {
 
@@ -63,15 +64,22 @@ class Perception {
   [[nodiscard]] Recognition recognise(const CellChanges& changes, double time_s,
                                       std::span<const MarkerSighting> markers = {});
 
-  // Whether the localizer has corrected the past so far that the map should be drawn anew (after localize()).
-  [[nodiscard]] bool is_map_moved();
+  // Whether the localizer has corrected the past so far that the map should be drawn anew (after localize()). Until
+  // that is done the map, the landmarks and poses stay in the frame that they are in.
+  [[nodiscard]] bool is_map_moved() const;
+  // Begins to draw the past at its corrected poses into a map that holds none of it.
+  void begin_redraw(std::shared_ptr<Mapper> map);
+  // After localize(), at every tick: draws a slice. With the last one the new map takes the place of the map so far,
+  // the pose moves with it, and its grid is returned; the detector gets all of it the next time. Else null.
+  const OccupancyGrid* redraw_slice(PoseEstimate& pose);
+  // How the map moved when it was last exchanged; none: it never was.
+  [[nodiscard]] const std::optional<MapMove>& last_move() const { return last_move_; }
   // After the last observation: the last corrections. Whether the map should be drawn anew.
   [[nodiscard]] bool finish();
-  // Draws the past at its corrected poses into a map that holds none of it, which takes the place of the map so far.
-  // Its grid. The detector gets all of it the next time.
+  // All of it at once; its grid. A run that is cancelled meanwhile keeps the map that it has.
   const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
-  // What that has done to the landmarks that move with the robot's path; once.
-  [[nodiscard]] std::vector<Event> take_corrected_landmarks() { return std::exchange(corrected_landmarks_, {}); }
+  // What that has done to the landmarks, if recognise() has not told it; once.
+  [[nodiscard]] std::vector<Event> take_moved_landmarks();
   // What the localizer knows of submaps; none from one that has none.
   [[nodiscard]] KeptSubmaps submaps();
   [[nodiscard]] const Past& past() const { return past_; }
@@ -103,6 +111,9 @@ class Perception {
   void localize_in_own_map(const Observation& observation);
   [[nodiscard]] Detected detect(const CellChanges& changes, const Budget& budget);
   [[nodiscard]] double correct_past(std::size_t newer);
+  void follow_corrections();
+  void draw_slice();
+  void exchange_maps();
   void add_events(const std::vector<LandmarkTracker::Change>& changes, std::vector<Event>& events) const;
 
   const MissionConfig& config_;
@@ -119,14 +130,17 @@ class Perception {
   const OccupancyGrid* map_left_alone_ = nullptr;
   const LandmarkGraph no_landmarks_;
   std::optional<OwnMap> own_;
-  CellBox forgotten_;  // where something was drawn that lose() has forgotten
+  CellBox forgotten_;  // where something was drawn in the map before, if there was one
   bool records_poses_ = false;
   PoseHistory* history_ = nullptr;  // the localizer's
   Past past_;
   std::vector<Pose2> corrected_;  // of the past, by the revision below
-  std::vector<Event> corrected_landmarks_;
   std::uint64_t revision_ = 0;
-  std::size_t drawn_ = 0;  // size of the past when the map was last drawn anew
+  DrawnFrame frame_;              // of the map
+  std::optional<Redraw> redraw_;  // under way
+  std::optional<MapMove> last_move_;
+  std::vector<LandmarkTracker::Change> moved_;  // by it, not told yet
+  std::size_t drawn_ = 0;                       // size of the past when the map was last drawn anew
   bool is_redrawn_ = false;
   SightingMotion sighting_motion_;
 };

@@ -25,6 +25,7 @@ void RouteDriver::restart() {
 
 Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourContext& context) {
   goal_.set(goal);
+  if (map_watch_.has_moved(world)) begin_in_new_map(world);
   map_.see(world);
   requests_.tick(world.time_s);
   follower_.see(world, map_);
@@ -49,6 +50,12 @@ void RouteDriver::set_mode(Mode mode, double time_s) {
   mode_ = mode;
   mode_since_s_ = time_s;
   follower_.restart_progress();
+}
+
+// Path and obstacles are where they were in the old one.
+void RouteDriver::begin_in_new_map(const WorldView& world) {
+  map_ = LocalMap(settings_.driving.local_map);
+  if (mode_ != Mode::face) set_mode(Mode::plan, world.time_s);
 }
 
 Status RouteDriver::travel(const WorldView& world, BehaviourContext& context) {

@@ -21,6 +21,7 @@
 #include "plugins/behaviours/driving/settings.hpp"
 #include "plugins/behaviours/following/route_follower.hpp"
 #include "plugins/behaviours/lookouts/lookout_route.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 
 namespace cairn::behaviours {
 
@@ -42,6 +43,7 @@ class RouteDriver {
   enum class Mode { plan, travel, back_up, turn, look, face };
 
   void set_mode(Mode mode, double time_s);
+  void begin_in_new_map(const WorldView& world);
 
   // route_driver.cpp: along the path, and at its end.
   Status travel(const WorldView& world, BehaviourContext& context);
@@ -78,6 +80,7 @@ class RouteDriver {
   RouteGoal goal_;
   Mode mode_ = Mode::plan;
   double mode_since_s_ = 0.0;
+  MapWatch map_watch_;
   LocalMap map_;
   RouteFollower follower_;
   PlannerRequests requests_;

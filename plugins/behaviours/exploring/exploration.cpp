@@ -40,6 +40,7 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
 Status Exploration::tick(const WorldView& world, BehaviourContext& context) {
   if (world.time_s - last_tick_s_ > config_.exploring.motion.away_s) begin_here(world);
   last_tick_s_ = world.time_s;
+  if (map_watch_.has_moved(world)) begin_in_new_map(world);
   has_nothing_left_ = false;
   travelled_.add(world.pose.T_map_robot);
   chooser_.see(world);
@@ -68,6 +69,12 @@ void Exploration::begin_here(const WorldView& world) {
   blockages_.restart();
   task_.reset();
   set_mode(can_turn(world.robot) ? Mode::look_around : Mode::travel, world.time_s);
+}
+
+// Where it was going is elsewhere now; it has looked around already.
+void Exploration::begin_in_new_map(const WorldView& world) {
+  begin_here(world);
+  set_mode(Mode::travel, world.time_s);
 }
 
 void Exploration::set_mode(Mode mode, double time_s) {

@@ -11,6 +11,7 @@
 #include "plugins/behaviours/exploring/task_chooser.hpp"
 #include "plugins/behaviours/exploring/task_follower.hpp"
 #include "plugins/behaviours/exploring/travelled.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 
 namespace cairn::behaviours {
 
@@ -36,6 +37,7 @@ class Exploration {
   Status pass(const WorldView& world, BehaviourContext& context);
 
   void begin_here(const WorldView& world);
+  void begin_in_new_map(const WorldView& world);
   void set_mode(Mode mode, double time_s);
   [[nodiscard]] bool is_on_orbit(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;
@@ -59,6 +61,7 @@ class Exploration {
   BlockageCount blockages_;
   BackUp back_up_;
   Travelled travelled_;
+  MapWatch map_watch_;
   std::optional<ExploreTask> task_;
   Mode mode_ = Mode::travel;
   bool has_nothing_left_ = false;

@@ -177,12 +177,14 @@ TEST(MarkerLandmarks, AShapeBesideAMarkerIsALandmarkOfItsOwn) {
 
 TEST(MarkerLandmarks, MoveWithTheRobotsPathWhenItIsCorrected) {
   LandmarkTracker tracker = tracker_of_landmarks();
+  std::vector<Pose2> before;
   std::vector<Pose2> corrected;
   for (const double x_m : {1.0, 1.3, 1.6}) {
     (void)see(tracker, {x_m, 2.0, 0.0}, kSeven, kTruth);
+    before.push_back({x_m, 2.0, 0.0});
     corrected.push_back({x_m + 0.5, 2.2, 0.0});
   }
-  const auto changes = tracker.correct_path(corrected);
+  const std::vector<LandmarkTracker::Change> changes = tracker.move({before, corrected});
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_EQ(changes[0].kind, LandmarkTracker::ChangeKind::changed);
   EXPECT_NEAR(tracker.graph().find_by_name("tag 7")->T_map_landmark.x_m, kTruth.x_m + 0.5, 0.01);

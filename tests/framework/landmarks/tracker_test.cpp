@@ -208,5 +208,89 @@ TEST_F(LandmarkTrackerTest, AWayThatTheRobotDroveIsPreferredToAPlannedOne) {
   EXPECT_EQ(route.trajectory.back(), in_whole_steps({to}).front());
 }
 
+// The way is bent: its end has been turned and moved, its beginning has not.
+class MovedMapTest : public LandmarkTrackerTest {
+ protected:
+  // Sees a landmark from each of two places.
+  void see_two() {
+    drive({1.5, 1.0, 0.0});
+    (void)update(detection_at(1.5, 2.0, "square", 0.8));
+    drive({3.0, 1.0, 0.0});
+    drive({4.5, 1.0, 0.0});
+    (void)update(detection_at(4.5, 2.0, "square", 0.8));
+  }
+  void drive(const Pose2& pose) {
+    before_.push_back(pose);
+    PoseEstimate estimate;
+    estimate.T_map_robot = pose;
+    tracker_.record_pose(estimate);
+  }
+  Changes move(const std::vector<Pose2>& after) {
+    Changes changes;
+    for (const auto& [id, kind] : tracker_.move({before_, after})) changes.emplace_back(id, kind);
+    return changes;
+  }
+  [[nodiscard]] Pose2 place_of(LandmarkId id) const { return tracker_.graph().find(id)->T_map_landmark; }
+  [[nodiscard]] static bool are_near(const Pose2& a, const Pose2& b) {
+    return (a.position() - b.position()).norm() < 1e-9;
+  }
+
+  std::vector<Pose2> before_;
+  const std::vector<Pose2> bent_{{1.5, 1.0, 0.0}, {3.0, 1.0, 0.0}, {4.5, 1.5, radians(90.0)}};
+};
+
+TEST_F(MovedMapTest, ALandmarkMovesAsThePoseFromWhichItWasPlaced) {
+  see_two();
+  EXPECT_EQ(move(bent_), (Changes{{2, ChangeKind::changed}}));
+  EXPECT_TRUE(are_near(place_of(1), {1.5, 2.0, 0.0}));
+  EXPECT_TRUE(are_near(place_of(2), {3.5, 1.5, 0.0})) << "a metre to the left of the robot";
+  EXPECT_NEAR(place_of(2).theta_rad, radians(90.0), 1e-9);
+  EXPECT_EQ(tracker_.driven_path(), bent_);
+  // And from there again.
+  before_ = bent_;
+  std::vector<Pose2> again = bent_;
+  again.back().x_m += 1.0;
+  EXPECT_EQ(move(again), (Changes{{2, ChangeKind::changed}}));
+  EXPECT_TRUE(are_near(place_of(2), {4.5, 1.5, 0.0}));
+}
+
+TEST_F(MovedMapTest, ACandidateMovesTooAndWasPlacedThereWhenItBecomesALandmark) {
+  tracker_ = LandmarkTracker({.confirm_sightings = 2}, robot_, {});
+  drive({1.0, 1.0, 0.0});
+  (void)update(detection_at(1.0, 2.0, "square", 0.8));
+  drive({2.0, 1.0, 0.0});
+  (void)move({{1.0, 1.5, 0.0}, {2.0, 1.5, 0.0}});
+  before_ = {{1.0, 1.5, 0.0}, {2.0, 1.5, 0.0}};
+  EXPECT_EQ(update(detection_at(1.0, 2.5, "square", 0.8)), (Changes{{1, ChangeKind::found}}));
+  EXPECT_TRUE(are_near(place_of(1), {1.0, 2.5, 0.0}));
+  (void)move({{1.0, 1.7, 0.0}, {2.0, 9.0, 0.0}});
+  EXPECT_TRUE(are_near(place_of(1), {1.0, 2.7, 0.0}));
+}
+
+TEST_F(MovedMapTest, WhatAnEarlierRunHasSeenStays) {
+  see_two();
+  tracker_.restore(tracker_.graph(), {}, {});
+  before_.clear();
+  drive({4.5, 1.0, 0.0});
+  EXPECT_TRUE(move({{4.5, 2.0, 0.0}}).empty());
+  EXPECT_TRUE(are_near(place_of(2), {4.5, 2.0, 0.0}));
+}
+
+TEST_F(MovedMapTest, ARouteKeepsItsIdAndEachOfItsPointsMovesAsTheWayNearBy) {
+  see_two();
+  connect();
+  ASSERT_FALSE(tracker_.graph().routes().empty());
+  const Route before = tracker_.graph().routes().begin()->second;
+  std::vector<Pose2> after = before_;
+  for (Pose2& pose : after) pose.y_m += 0.3;
+  (void)move(after);
+  const Route* const moved = tracker_.graph().find_route(before.id);
+  ASSERT_NE(moved, nullptr);
+  ASSERT_EQ(moved->trajectory.size(), before.trajectory.size());
+  for (std::size_t i = 0; i < before.trajectory.size(); ++i)
+    EXPECT_NEAR(moved->trajectory[i].y_m, before.trajectory[i].y_m + 0.3, 2.0 * kMaxRounding_m);
+  EXPECT_EQ(tracker_.graph().routes_from(before.from).front(), before.id);
+}
+
 }  // namespace
 }  // namespace cairn

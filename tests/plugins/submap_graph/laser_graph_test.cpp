@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "tests/plugins/submap_graph/driven_ring.hpp"
 
 namespace cairn::submap_graph {
@@ -9,13 +12,34 @@ namespace {
 
 constexpr int kBeams = 120;
 
+constexpr double kPeriod_s = 0.5;
+
 LaserGraph driven(const std::vector<DrivenScan>& drive, const Config& config = {}) {
   LaserGraph graph(config, drive.front().T_map_robot);
   const std::vector<DrawnWall> walls = ring_walls();
+  double stamp_s = 0.0;
   std::uint64_t seed = 0;
   for (const DrivenScan& scan : drive)
-    graph.add(seen_from(walls, scan.T_map_robot, kBeams, 0.01, ++seed), scan.T_odom_robot);
+    graph.add(seen_from(walls, scan.T_map_robot, kBeams, 0.01, ++seed), scan.T_odom_robot, stamp_s += kPeriod_s);
   return graph;
+}
+
+// Where each scan was put when it came, the machine being slow or not.
+std::vector<Pose2> first_answers(const std::vector<DrivenScan>& drive, double period_s,
+                                 std::chrono::microseconds pause) {
+  LaserGraph graph({}, drive.front().T_map_robot);
+  const std::vector<DrawnWall> walls = ring_walls();
+  double stamp_s = 0.0;
+  std::uint64_t seed = 0;
+  std::vector<Pose2> answers;
+  answers.reserve(drive.size());
+  for (const DrivenScan& scan : drive) {
+    const std::vector<Point> seen = seen_from(walls, scan.T_map_robot, kBeams, 0.01, ++seed);
+    answers.push_back(graph.add(seen, scan.T_odom_robot, stamp_s += period_s));
+    std::this_thread::sleep_for(pause);
+  }
+  EXPECT_GE(graph.revision(), 1U);
+  return answers;
 }
 
 double worst_error_m(const std::vector<Pose2>& poses, const std::vector<DrivenScan>& drive) {
@@ -52,7 +76,8 @@ TEST(LaserGraph, FewEchoesThatAreGatheredOverTheWayCloseLoopsToo) {
   const std::vector<DrawnWall> walls = ring_walls();
   std::uint64_t seed = 0;
   for (const DrivenScan& scan : drive)
-    graph.add(seen_from(walls, scan.T_map_robot, 8, 0.02, ++seed), scan.T_odom_robot);
+    graph.add(seen_from(walls, scan.T_map_robot, 8, 0.02, ++seed), scan.T_odom_robot,
+              kPeriod_s * static_cast<double>(seed));
   while (graph.finish_part()) {
   }
   const double odometry_m = (drive.front().T_map_robot * drive.back().T_odom_robot).position().norm();
@@ -66,11 +91,43 @@ TEST(LaserGraph, TheSameScansGiveTheSamePosesToTheLastBit) {
   EXPECT_EQ(driven(drive).poses(), driven(drive).poses());
 }
 
+// At 20 Hz answers are taken four scans after they were asked for, and must not come when they are ready.
+TEST(LaserGraph, HowLongASearchTakesChangesNothing) {
+  const std::vector<DrivenScan> drive = ring_drive(2, radians(3.0), 0.05);
+  EXPECT_EQ(first_answers(drive, 0.05, std::chrono::microseconds(0)),
+            first_answers(drive, 0.05, std::chrono::milliseconds(10)));
+}
+
+TEST(LaserGraph, ACorrectionIsTakenAFixedTimeAfterItsSearchBegan) {
+  std::vector<std::size_t> corrected_at;
+  for (const double period_s : {0.5, 0.05}) {
+    const std::vector<DrivenScan> drive = ring_drive(2, radians(3.0), 0.05);
+    LaserGraph graph({}, drive.front().T_map_robot);
+    const std::vector<DrawnWall> walls = ring_walls();
+    std::size_t scans = 0;
+    while (graph.revision() == 0 && scans < drive.size()) {
+      const DrivenScan& scan = drive[scans++];
+      const std::vector<Point> seen = seen_from(walls, scan.T_map_robot, kBeams, 0.01, scans);
+      graph.add(seen, scan.T_odom_robot, period_s * static_cast<double>(scans));
+    }
+    corrected_at.push_back(scans);
+  }
+  // With the next scan, and not before the fourth.
+  EXPECT_LT(corrected_at[0], corrected_at[1]);
+  EXPECT_LE(corrected_at[1], corrected_at[0] + 8);
+}
+
+// The fixed time is of the stamps; ones that stand still, or go back, do not keep it for ever.
+TEST(LaserGraph, StampsThatStandStillKeepNoAnswerBack) {
+  EXPECT_EQ(first_answers(ring_drive(3, radians(3.0), 0.05), 0.0, std::chrono::microseconds(0)).size(),
+            ring_drive(3, radians(3.0), 0.05).size());
+}
+
 TEST(LaserGraph, WithoutEchoesItFollowsOdometry) {
   LaserGraph graph({}, {1.0, 2.0, 0.5});
   Pose2 T_odom_robot;
   for (int i = 0; i < 30; ++i) {
-    graph.add({}, T_odom_robot);
+    graph.add({}, T_odom_robot, kPeriod_s * i);
     T_odom_robot = T_odom_robot * Pose2{0.2, 0.0, 0.05};
   }
   while (graph.finish_part()) {
@@ -85,7 +142,8 @@ TEST(LaserGraph, WithoutEchoesItFollowsOdometry) {
 TEST(LaserGraph, ARobotThatStandsStillAddsNoNodes) {
   const std::vector<DrawnWall> walls = ring_walls();
   LaserGraph graph({}, {1.0, 1.0, 0.0});
-  for (std::uint64_t seed = 1; seed <= 50; ++seed) graph.add(seen_from(walls, {1.0, 1.0, 0.0}, kBeams, 0.01, seed), {});
+  for (std::uint64_t seed = 1; seed <= 50; ++seed)
+    graph.add(seen_from(walls, {1.0, 1.0, 0.0}, kBeams, 0.01, seed), {}, kPeriod_s * static_cast<double>(seed));
   EXPECT_EQ(graph.graph().size(), 1U);
   EXPECT_EQ(graph.poses().size(), 50U);
 }

@@ -53,6 +53,32 @@ TEST(SubmapGraph, CorrectsThePastWhenALoopCloses) {
     EXPECT_LT((poses[i].position() - drive[i].T_map_robot.position()).norm(), 0.1) << i;
 }
 
+// A third of the round each time, while the robot drives on and turns.
+TEST(SubmapGraph, PartsOfALasersRoundAreOneScan) {
+  Config config;
+  config.sweep_s = 0.3;
+  SubmapGraph localizer(config, {1.0, 1.0, 0.0});
+  const std::vector<DrawnWall> walls = ring_walls();
+  Pose2 truth{1.0, 1.0, 0.0};
+  Pose2 T_odom_robot;
+  int scans = 0;
+  for (std::uint64_t i = 0; i < 150; ++i) {
+    Observation seen;
+    seen.stamp_s = 0.1 * static_cast<double>(i);
+    seen.T_odom_robot = T_odom_robot;
+    const std::vector<Point> round = seen_from(walls, truth, 180, 0.01, i + 1);
+    for (std::size_t k = (i % 3) * round.size() / 3; k < (i % 3 + 1) * round.size() / 3; ++k)
+      seen.ranges.push_back(reading(std::atan2(round[k].y(), round[k].x()), round[k].norm()));
+    const PoseEstimate estimate = localizer.update(seen, nothing_known());
+    scans += estimate.sightings_used + estimate.sightings_refused;
+    ASSERT_LT((estimate.T_map_robot.position() - truth.position()).norm(), 0.12) << i;
+    const Pose2 next{0.04, 0.0, i / 25 % 4 == 0 || i / 25 % 4 == 3 ? 0.02 : -0.02};
+    truth = truth * next;
+    T_odom_robot = T_odom_robot * Pose2{1.1 * next.x_m, 0.0, 1.2 * next.theta_rad};
+  }
+  EXPECT_EQ(scans, 50);
+}
+
 TEST(SubmapGraph, OdometryThatIsNotFiniteIsAStepOfNone) {
   SubmapGraph localizer({}, {1.0, 2.0, 0.0});
   Observation seen;

@@ -27,13 +27,15 @@ class OffsetLocalizer : public Localizer {
 class CorrectingLocalizer : public OffsetLocalizer, public PoseHistory {
  public:
   PoseEstimate update(const Observation& observation, const KnownMap& known) override {
-    const PoseEstimate pose = OffsetLocalizer::update(observation, known);
+    PoseEstimate pose = OffsetLocalizer::update(observation, known);
+    pose.T_map_robot.x_m += corrected_m_;
     poses_.push_back(pose.T_map_robot);
     return pose;
   }
   PoseHistory* history() override { return this; }
   void correct(double by_m) {
     for (Pose2& pose : poses_) pose.x_m += by_m;
+    corrected_m_ += by_m;
     ++revision_;
   }
   [[nodiscard]] std::vector<Pose2> poses() const override { return poses_; }
@@ -48,6 +50,7 @@ class CorrectingLocalizer : public OffsetLocalizer, public PoseHistory {
  private:
   std::vector<Pose2> poses_;
   std::uint64_t revision_ = 0;
+  double corrected_m_ = 0.0;
 };
 
 class CountingMapper : public Mapper {
@@ -225,34 +228,119 @@ TEST_F(PerceptionTest, TheGridOfAnEarlierRunIsShownToTheDetectorWithoutAnyMatchi
   EXPECT_EQ(perception().tracker().driven_path(), map.driven_path);
 }
 
-TEST_F(PerceptionTest, AMapOfAPastThatWasCorrectedIsDrawnAnewAtTheCorrectedPoses) {
-  const auto correcting = std::make_shared<CorrectingLocalizer>();
-  built_.localizer = correcting;
-  (void)perception().begin();
-  const auto tick = [&](double x_m) {
-    const Observation seen = observation(2, x_m);
-    const PoseEstimate pose = perception().localize(seen);
-    const bool is_moved = perception().is_map_moved();
-    perception().map(seen, pose);
-    return is_moved;
-  };
-  EXPECT_FALSE(tick(0.0));
-  EXPECT_FALSE(tick(1.0)) << "nothing was corrected";
-  correcting->correct(0.1);
-  EXPECT_FALSE(tick(2.0)) << "by less than what a map is drawn anew for";
-  correcting->correct(0.5);
-  const Observation seen = observation(2, 3.0);
-  const PoseEstimate pose = perception().localize(seen);
-  ASSERT_TRUE(perception().is_map_moved());
-  const auto map = std::make_shared<CountingMapper>();
-  EXPECT_EQ(&perception().redraw(map), &map->grid());
-  EXPECT_EQ(map->readings, 6U) << "of three observations";
-  EXPECT_NEAR(map->at.x_m, 2.0 + 1.0 + 0.5, 1e-12) << "the third, and what was corrected after it";
-  const CellChanges& changes = perception().map(seen, pose);
-  EXPECT_FALSE(changes.spans.empty()) << "the detector examines all of it";
-  EXPECT_EQ(map->readings, 8U);
+// From the localizer's answer to the map; a map that is to be drawn anew is.
+class RedrawTest : public PerceptionTest {
+ protected:
+  RedrawTest() {
+    built_.localizer = correcting_;
+    (void)perception().begin();
+  }
+  // Whether the maps were exchanged.
+  bool tick(double x_m, std::size_t readings = 2) {
+    const Observation seen = observation(readings, x_m);
+    pose_ = perception().localize(seen);
+    if (perception().is_map_moved()) perception().begin_redraw(next_ = std::make_shared<CountingMapper>());
+    const OccupancyGrid* const grid = perception().redraw_slice(pose_);
+    changes_ = perception().map(seen, pose_);
+    if (grid != nullptr) EXPECT_EQ(grid, &next_->grid());
+    return grid != nullptr;
+  }
+  [[nodiscard]] double first_x_m() { return perception().tracker().driven_path().front().x_m; }
+
+  const std::shared_ptr<CorrectingLocalizer> correcting_ = std::make_shared<CorrectingLocalizer>();
+  std::shared_ptr<CountingMapper> next_;
+  PoseEstimate pose_;
+  CellChanges changes_;
+};
+
+TEST_F(RedrawTest, AMapOfAPastThatWasCorrectedIsDrawnAnewAtTheCorrectedPoses) {
+  tick(0.0);
+  tick(1.0);
+  correcting_->correct(0.05);
+  EXPECT_FALSE(tick(2.0));
+  EXPECT_EQ(next_, nullptr) << "by less than what a map is drawn anew for";
+  EXPECT_NEAR(pose_.T_map_robot.x_m, 2.0 + 1.05, 1e-12) << "and small enough for the pose to jump";
+  correcting_->correct(0.5);
+  EXPECT_TRUE(tick(3.0)) << "a small past is drawn in one slice";
+  EXPECT_EQ(next_->readings, 8U) << "of three observations, and of this one";
+  EXPECT_NEAR(next_->at.x_m, 3.0 + 1.55, 1e-12);
+  EXPECT_FALSE(changes_.spans.empty()) << "the detector examines all of it";
   EXPECT_EQ(mapper_->readings, 6U) << "the earlier map gets nothing more";
-  EXPECT_NEAR(perception().tracker().driven_path().front().x_m, 1.0 + 0.6, 1e-12);
+  EXPECT_NEAR(first_x_m(), 1.55, 1e-12);
+}
+
+// Each is as much as a slice may hold, but for the two that a slice holds at least.
+constexpr std::size_t kLargeScan = 300;
+
+TEST_F(RedrawTest, UntilAllIsDrawnEveryoneSeesTheOldMapAndTheRobotsPlaceInIt) {
+  for (int i = 0; i < 6; ++i) tick(0.1 * i, kLargeScan);
+  correcting_->correct(0.5);
+  EXPECT_FALSE(tick(1.0, kLargeScan));
+  ASSERT_NE(next_, nullptr);
+  EXPECT_EQ(next_->readings, 2 * kLargeScan);
+  EXPECT_NEAR(pose_.T_map_robot.x_m, 1.0 + 1.0, 1e-12) << "in the old map the robot has not jumped";
+  EXPECT_NEAR(mapper_->at.x_m, 2.0, 1e-12) << "which goes on being drawn";
+  EXPECT_NEAR(first_x_m(), 1.0, 1e-12);
+  int ticks = 1;
+  while (!tick(1.0 + ticks, kLargeScan) && ticks < 20) {
+    EXPECT_NEAR(pose_.T_map_robot.x_m, 2.0 + ticks, 1e-12);
+    ++ticks;
+  }
+  EXPECT_EQ(ticks, 4) << "two a tick of 6, and one more comes each tick";
+  EXPECT_NEAR(pose_.T_map_robot.x_m, 2.5 + ticks, 1e-12) << "with the map the pose moves";
+  EXPECT_EQ(next_->readings, 11 * kLargeScan) << "all that came, and none twice";
+  EXPECT_NEAR(first_x_m(), 1.5, 1e-12);
+  EXPECT_FALSE(tick(9.0));
+  EXPECT_NEAR(pose_.T_map_robot.x_m, 10.5, 1e-12);
+}
+
+TEST_F(RedrawTest, WhatIsCorrectedMeanwhileWaitsForTheNextTime) {
+  for (int i = 0; i < 6; ++i) tick(0.1 * i, kLargeScan);
+  correcting_->correct(0.5);
+  EXPECT_FALSE(tick(1.0, kLargeScan));
+  correcting_->correct(0.4);
+  EXPECT_FALSE(tick(1.0, kLargeScan));
+  EXPECT_NEAR(pose_.T_map_robot.x_m, 2.0, 1e-12);
+  const std::shared_ptr<CountingMapper> first = next_;
+  for (int i = 0; i < 20 && !tick(1.0, kLargeScan); ++i) EXPECT_NEAR(pose_.T_map_robot.x_m, 2.0, 1e-12);
+  EXPECT_EQ(next_, first) << "the one under way comes to its end";
+  EXPECT_NEAR(pose_.T_map_robot.x_m, 2.5, 1e-12);
+  for (int i = 0; i < 40 && !tick(1.0); ++i) EXPECT_NEAR(pose_.T_map_robot.x_m, 2.5, 1e-12);
+  EXPECT_NE(next_, first);
+  EXPECT_NEAR(pose_.T_map_robot.x_m, 2.9, 1e-12);
+  EXPECT_NEAR(first_x_m(), 1.9, 1e-12);
+}
+
+TEST_F(RedrawTest, LandmarksMoveWithTheMapAndSoThoseWhoLookOnAreTold) {
+  mission_.config.landmarks.confirm_sightings = 1;
+  perception_.reset();
+  (void)perception().begin();
+  for (int i = 0; i < 6; ++i) tick(0.1 * i, kLargeScan);
+  detector_->next.matchings = {square_at(1.0)};
+  (void)perception().recognise({}, 0.5);
+  const auto landmark_x_m = [&] {
+    return perception().tracker().graph().landmarks().begin()->second.T_map_landmark.x_m;
+  };
+  correcting_->correct(0.5);
+  EXPECT_FALSE(tick(1.0, kLargeScan));
+  EXPECT_NEAR(landmark_x_m(), 1.0, 1e-12);
+  while (!tick(1.0, kLargeScan)) {
+  }
+  EXPECT_NEAR(landmark_x_m(), 1.5, 1e-12);
+  const Recognition recognised = perception().recognise({}, 0.6);
+  EXPECT_EQ(kinds_of(recognised), (std::vector{Event(LandmarkChanged{}).index()}));
+  EXPECT_NEAR(perception().last_move()->near({1.0, 0.0}).x_m, 0.5, 1e-12);
+}
+
+TEST_F(RedrawTest, ARunThatEndsMeanwhileDrawsAllOfIt) {
+  for (int i = 0; i < 6; ++i) tick(0.1 * i, kLargeScan);
+  correcting_->correct(0.5);
+  EXPECT_FALSE(tick(1.0, kLargeScan));
+  EXPECT_TRUE(perception().finish());
+  const auto last = std::make_shared<CountingMapper>();
+  EXPECT_EQ(&perception().redraw(last), &last->grid());
+  EXPECT_EQ(last->readings, 7 * kLargeScan);
+  EXPECT_NEAR(perception().past().poses().back().T_map_robot.x_m, 2.5 + 0.02, 1e-12);
 }
 
 TEST_F(PerceptionTest, TagsThatMoveWithACorrectedPastAreReportedOnce) {
