@@ -12,8 +12,8 @@
 #include "framework/mission/localisation/map_snapshots.hpp"
 #include "framework/mission/loop/staged_modules.hpp"
 #include "framework/mission/perception/past.hpp"
-#include "framework/mission/perception/sighting_motion.hpp"
 #include "framework/mission/perception/redraw.hpp"
+#include "framework/mission/perception/sighting_motion.hpp"
 
 namespace cairn {
 
