@@ -222,6 +222,7 @@ std::shared_ptr<Detector> build_detector(const Mission& mission, const ModuleLib
 MissionModules build_modules(const Mission& mission, const ModuleLibrary& library, const SavedMap* resume,
                              const BuildOptions& options, const std::optional<LocalizerStart>& start_known) {
   const MissionConfig& config = mission.config;
+  const bool is_left_alone = start_known && resume == nullptr;  // the map
   MissionModules built;
   built.T_map_start = start_of(config);
   if (resume != nullptr) {
@@ -240,7 +241,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   built.localizer = build_localizer(mission, library, start_known.value_or(LocalizerStart{built.T_map_start, {}}));
   built.mapper = build_mapper(mission, library);
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
-  if (!config.detector.name.empty() && !start_known)
+  if (!config.detector.name.empty() && !is_left_alone)
     add_detector(mission, library, built.mapper->grid().cell_m(), built);
   built.marker_detector = build_marker_detector(mission, library);
   if (!config.planner.name.empty()) built.planner = build_planner(mission, library);
@@ -249,7 +250,7 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
     throw missing.front();
   for (const TreeNode* node : behaviours_of(mission.steps))
     built.behaviours.push_back(build_behaviour(mission, library, *node, built.behaviours.size()));
-  if (!start_known && fenced("sensor", config.sensor.name, [&] { return built.sensor->drive(); }) != nullptr)
+  if (!is_left_alone && fenced("sensor", config.sensor.name, [&] { return built.sensor->drive(); }) != nullptr)
     built.find_myself = build_find_myself(mission, library, built.behaviours.size());
   return built;
 }

@@ -46,9 +46,9 @@ struct BuildOptions {
   std::function<void(const std::string& sentence)> on_wait{};  // what is waited for, by another thread
 };
 
-// resume: the map to go on from, or null. start: of a run that leaves its map alone, which needs no detector; its
-// mapper begins with nothing, and where the sensor begins is not where the robot is said to be. Throws ConfigError or
-// ModuleFault; StoreError when the map does not fit.
+// resume: the map to go on from, or null. start: where the robot is said to be, whatever the sensor or that map says;
+// without resume, of a run that leaves its map alone, which needs no detector, and whose mapper begins with nothing.
+// Throws ConfigError or ModuleFault; StoreError when the map does not fit.
 [[nodiscard]] MissionModules build_modules(const Mission& mission, const ModuleLibrary& library,
                                            const SavedMap* resume = nullptr, const BuildOptions& options = {},
                                            const std::optional<LocalizerStart>& start = std::nullopt);

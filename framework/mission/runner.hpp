@@ -47,6 +47,8 @@ struct RunOptions {
   // For pacing, intervals and the watch over modules.
   std::shared_ptr<const WallClock> wall_clock = std::make_shared<SteadyClock>();
   std::optional<LocaliseIn> localise_in = std::nullopt;  // not with resume
+  // With resume: where the robot is, which is not checked then. None: where the map was left.
+  std::optional<Pose2> T_map_resumed = std::nullopt;
   // Gets a sentence, once each time that the sensor waits for a robot, by the thread of MissionRunner::run(); and while
   // the runner is made, every ten seconds that the sensor waits for where the robot begins, by another thread.
   std::function<void(const std::string&)> on_wait{};

@@ -45,7 +45,7 @@ void add_run(CLI::App& app, CommandLine& line) {
       sub->add_option("--localize-in", c->localise_in,
                       "saved map (*.cairn) in which the robot finds out where it is; it is left alone");
   localise_in->excludes(resume);
-  sub->add_option("--pose", c->pose, "where the robot is in that map: X,Y,DEGREES")->needs(localise_in);
+  sub->add_option("--pose", c->pose, "where the robot is in either map: X,Y,DEGREES");
   sub->add_flag("--other-world", c->other_world, "go on although the map was made in another world");
   sub->add_option("--orders", c->orders, "orders of an earlier run (orders.jsonl) to give again, each with its tick");
   CLI::Option* const view = sub->add_flag("--view", c->view, "watch in a browser: prints the address");

@@ -14,6 +14,7 @@ Budget budget_of(const RunOptions& options) {
 }
 
 std::optional<LocalizerStart> start_of(const RunOptions& options, const RobotModel& robot) {
+  if (options.T_map_resumed) return LocalizerStart{*options.T_map_resumed, kFoundUncertainty};
   if (!options.localise_in) return std::nullopt;
   if (options.localise_in->T_map_start) return LocalizerStart{*options.localise_in->T_map_start, kFoundUncertainty};
   // A frame of its own, turned as the compass says.

@@ -41,7 +41,7 @@ void MissionLoop::begin_watch() {
   if (!modules_.has_drive || !has_ranges(mission_.robot) || options_.localise_in) return;
   watch_.emplace(mission_.robot);
   if (modules_.find_myself) steps_.recover_by(modules_.find_myself, kFindMyself);
-  if (options_.resume == nullptr) return;
+  if (options_.resume == nullptr || options_.T_map_resumed) return;
   const auto left = std::make_shared<const MapSnapshot>(
       MapSnapshot{*grid_so_far_, perception_.known_landmarks(), modules_.T_map_start});
   begin_check(left, modules_.T_map_start, std::nullopt);

@@ -29,7 +29,7 @@ struct RunCommand {
   std::filesystem::path out = "out";
   std::filesystem::path resume;       // a saved map to go on from; empty: from the beginning
   std::filesystem::path localise_in;  // a saved map that is left alone; empty: none
-  std::string pose;                   // "x,y,degrees" in that map; empty: not known
+  std::string pose;                   // "x,y,degrees" in it, or in that to resume; empty: not known
   std::optional<std::int64_t> seed;
   std::vector<std::string> overrides;
   double pace = 0.0;             // seconds of the mission a second, at most; 0: as fast as the machine

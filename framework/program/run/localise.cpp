@@ -23,11 +23,16 @@ Pose2 pose_of(const std::string& text) {
 
 }  // namespace
 
+std::optional<Pose2> pose_given(const RunCommand& command) {
+  if (command.pose.empty()) return std::nullopt;
+  if (command.localise_in.empty() && command.resume.empty())
+    throw std::runtime_error("--pose is a place in a map: it goes with --localize-in or --resume");
+  return pose_of(command.pose);
+}
+
 std::optional<MapToLocaliseIn> map_to_localise_in(const RunCommand& command) {
   if (command.localise_in.empty()) return std::nullopt;
-  std::optional<Pose2> T_map_start;
-  if (!command.pose.empty()) T_map_start = pose_of(command.pose);
-  return MapToLocaliseIn{load_map(command.localise_in), T_map_start};
+  return MapToLocaliseIn{load_map(command.localise_in), pose_given(command)};
 }
 
 void begin_with_finding_itself(Mission& mission) {

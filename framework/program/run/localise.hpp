@@ -1,4 +1,4 @@
-// `cairn run --localize-in`: which map, and what the mission does first.
+// `cairn run --localize-in`, `--pose`: which map, where in it, and what the mission does first.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,10 @@ struct MapToLocaliseIn {
   std::optional<Pose2> T_map_start;  // as the command line gives it
 };
 
-// None unless the command line names one. Throws StoreError, and std::runtime_error for a pose that is none.
+// --pose, if there is one. Throws std::runtime_error when it is none, or there is no map for it.
+[[nodiscard]] std::optional<Pose2> pose_given(const RunCommand& command);
+
+// None unless the command line names one. Throws StoreError, and as pose_given().
 [[nodiscard]] std::optional<MapToLocaliseIn> map_to_localise_in(const RunCommand& command);
 
 // A robot that drives and does not know where it is finds itself first, unless the mission says when.

@@ -243,6 +243,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   ControlFlags& flags = flags_of_signals();
   std::optional<std::int64_t> seed = command.seed;
   const std::optional<SavedMap> resume = map_to_resume(command, seed);
+  const std::optional<Pose2> pose = pose_given(command);
   const std::optional<MapToLocaliseIn> known = map_to_localise_in(command);
   Mission mission = load_mission(command.mission, command.overrides, seed);
   if (known && !known->T_map_start) begin_with_finding_itself(mission);
@@ -263,6 +264,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunOptions options{command.out, command.pace, &flags.cancel, true, resume ? &*resume : nullptr, &control, orders};
   options.on_wait = [](const std::string& sentence) { std::cerr << sentence << "\n" << std::flush; };
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
+  if (resume) options.T_map_resumed = pose;
   MissionRunner runner = runner_of(mission, library, options, command);
   choose_recordings(mission.config, command, runner.has_drive() && !mission.world);
   if (!known) keep_earlier_run(command, mission.config, people);

@@ -69,6 +69,28 @@ TEST(Carried, ARobotThatWasCarriedNoticesItAndFindsItself) {
   EXPECT_EQ(after.graph.landmarks().size(), landmarks) << "nothing is drawn or recognised in the wrong place";
 }
 
+TEST(Carried, ARobotWhoseNewPlaceIsGivenGoesOnThereUnchecked) {
+  const auto folder = fresh_folder("carried_and_told");
+  SavedMap moved = load_map(map_left());
+  const std::size_t landmarks = moved.graph.landmarks().size();
+  moved.progress->true_T_map_robot = Pose2{4.6, 1.2, 2.2};
+  save_map(folder / "moved.cairn", moved);
+  const Finished finished =
+      run_office(folder, {"--resume", (folder / "moved.cairn").string(), "--pose", "4.65,1.2,126"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const auto summary = nlohmann::json::parse(finished.out);
+  EXPECT_FALSE(summary.contains("start_check"));
+  EXPECT_FALSE(summary.contains("localisation"));
+  EXPECT_LT(summary["pose_error"]["worst_m"].get<double>(), 0.2);
+  EXPECT_EQ(load_map(folder / "office.cairn").graph.landmarks().size(), landmarks);
+}
+
+TEST(Carried, APoseWithoutAMapIsRefused) {
+  const Finished finished = run_office(fresh_folder("pose_without_map"), {"--pose", "1,2,90"});
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err, testing::HasSubstr("it goes with --localize-in or --resume"));
+}
+
 // What it has drawn in the wrong place until then is in no file.
 TEST(Carried, TheMapIsLeftAloneUntilTheRobotHasFoundItself) {
   const auto folder = fresh_folder("carried_still_lost");
