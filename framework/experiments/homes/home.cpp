@@ -292,35 +292,12 @@ class HomeDrawing {
                        from_m.y(), to_m.x(), to_m.y());
   }
 
-  // On walls and on flat furniture.
   [[nodiscard]] std::string tags_yaml() const {
     if (config_.tags == 0) return {};
-    std::vector<HomeFace> faces = sides();
-    std::vector<HomeObstacle> obstacles;
-    obstacles.reserve(pieces_.size());
-    for (const Piece& piece : pieces_) {
-      const auto& [min_m, max_m] = piece.box;
-      obstacles.push_back({min_m, max_m});
-      if (piece.is_round) continue;
-      const Point right_m(max_m.x(), min_m.y());
-      const Point left_m(min_m.x(), max_m.y());
-      for (const HomeFace& face :
-           {HomeFace{right_m, min_m}, HomeFace{max_m, right_m}, HomeFace{left_m, max_m}, HomeFace{min_m, left_m}})
-        if (has_room_before(face)) faces.push_back(face);
-    }
-    std::string text = "tags:\n";
-    for (const WorldTag& tag : hung_tags({config_.tags, config_.tag_size_m}, faces, obstacles, seed_))
-      text += fmt::format("  - {{id: {}, at_m: [{:.3f}, {:.3f}], facing_deg: {:g}, height_m: {:.3f}, size_m: {:g}}}\n",
-                          tag.marker.number, tag.T_map_tag.x_m, tag.T_map_tag.y_m,
-                          std::round(degrees(tag.T_map_tag.theta_rad)), tag.height_m, tag.size_m);
-    return text;
-  }
-
-  // Furniture that stands against a wall shows it no face.
-  [[nodiscard]] bool has_room_before(const HomeFace& face) const {
-    const Point along = (face.b_m - face.a_m).normalized();
-    const Point p_m = 0.5 * (face.a_m + face.b_m) + 0.3 * Point(-along.y(), along.x());
-    return std::ranges::any_of(home_.rooms, [&](const HomeRoom& room) { return room.contains(p_m); });
+    std::vector<HomeFurniture> furniture;
+    furniture.reserve(pieces_.size());
+    for (const Piece& piece : pieces_) furniture.push_back({piece.box, piece.is_round});
+    return hung_tags_yaml({config_.tags, config_.tag_size_m}, {home_.rooms, sides(), furniture}, seed_);
   }
 
   [[nodiscard]] std::string yaml() const {
@@ -355,29 +332,6 @@ class HomeDrawing {
 };
 
 }  // namespace
-
-void HomesConfig::describe(Fields<HomesConfig>& fields) {
-  using C = HomesConfig;
-  fields.integer("min_rooms", &C::min_rooms, {1.0, 100.0}, "at least so many rooms, a corridor among them");
-  fields.integer("max_rooms", &C::max_rooms, {1.0, 100.0}, "at most so many");
-  fields.number("min_area_m2", &C::min_area_m2, {10.0, 1e4}, "m2", "smallest area of all rooms with their walls");
-  fields.number("max_area_m2", &C::max_area_m2, {10.0, 1e4}, "m2", "largest area");
-  fields.number("min_door_m", &C::min_door_m, {0.3, 3.0}, "m", "narrowest door");
-  fields.number("max_door_m", &C::max_door_m, {0.3, 3.0}, "m", "widest door");
-  fields.number("corridor_ratio", &C::corridor_ratio, {0.0, 1.0}, "",
-                "share of the homes with at least four rooms that have them along a corridor");
-  fields.number("corner_ratio", &C::corner_ratio, {0.0, 1.0}, "", "share of the others that may lack a corner");
-  fields.number("wall_m", &C::wall_m, {0.0, 0.5}, "m", "thickness of the walls");
-  fields.integer("max_furniture", &C::max_furniture, {0.0, 20.0}, "at most so many pieces of furniture in a room");
-  fields.number("gap_m", &C::gap_m, {0.1, 5.0}, "m", "free space between furniture, and before walls");
-  fields.integer("tags", &C::tags, {0.0, 100.0}, "so many printed tags (AprilTags 36h11) hang on walls and furniture");
-  fields.number("tag_size_m", &C::tag_size_m, {0.02, 1.0}, "m", "side of their black squares");
-  fields.number("tag_tolerance_m", &C::tag_tolerance_m, {0.0, 10.0}, "m",
-                "a tag of the map that is further from the truth is a false one");
-  fields.number("fast_mps", &C::fast_mps, {0.0, 10.0}, "m/s", "a contact faster than this is a fast one");
-  fields.number("beyond_door_m", &C::beyond_door_m, {0.0, 2.0}, "m",
-                "a room is entered when the robot's centre is this far inside its walls");
-}
 
 Home random_home(const HomesConfig& config, std::uint64_t seed) {
   return HomeDrawing(config, seed).draw();

@@ -1,8 +1,12 @@
 #include "framework/experiments/homes/hung_tags.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "framework/contracts/world.hpp"
 #include "maps/base/portable_random.hpp"
 
 namespace cairn {
@@ -15,16 +19,27 @@ constexpr double kApart_m = 0.5;
 constexpr double kBefore_m[] = {0.02, 0.15, 0.3, 0.5};
 constexpr int kTriesForEach = 100;
 
-bool holds(const HomeObstacle& box, const Point& p_m) {
-  return (p_m.array() >= box.min_m.array()).all() && (p_m.array() <= box.max_m.array()).all();
+// Of its four sides, those that stand against no wall.
+std::vector<HomeFace> free_sides(const HomeRoom& box, const std::vector<HomeRoom>& rooms) {
+  const auto& [min_m, max_m] = box;
+  const Point right_m(max_m.x(), min_m.y());
+  const Point left_m(min_m.x(), max_m.y());
+  std::vector<HomeFace> sides{{right_m, min_m}, {max_m, right_m}, {left_m, max_m}, {min_m, left_m}};
+  std::erase_if(sides, [&](const HomeFace& side) {
+    const Point along = (side.b_m - side.a_m).normalized();
+    const Point before_m = 0.5 * (side.a_m + side.b_m) + 0.3 * Point(-along.y(), along.x());
+    return std::ranges::none_of(rooms, [&](const HomeRoom& room) { return room.contains(before_m); });
+  });
+  return sides;
 }
 
 class Hanging {
  public:
-  Hanging(const HungTagsConfig& config, const std::vector<HomeFace>& faces, const std::vector<HomeObstacle>& obstacles,
-          std::uint64_t seed)
-      : config_(config), faces_(faces), obstacles_(obstacles), random_(seed, 3) {
-    for (const HomeFace& face : faces) all_m_ += (face.b_m - face.a_m).norm();
+  Hanging(const HungTagsConfig& config, const HomeToTag& home, std::uint64_t seed)
+      : config_(config), faces_(home.walls), furniture_(home.furniture), random_(seed, 3) {
+    for (const HomeFurniture& piece : home.furniture)
+      if (!piece.is_round) std::ranges::copy(free_sides(piece.box, home.rooms), std::back_inserter(faces_));
+    for (const HomeFace& face : faces_) all_m_ += (face.b_m - face.a_m).norm();
   }
 
   [[nodiscard]] std::vector<WorldTag> draw() {
@@ -52,8 +67,8 @@ class Hanging {
     const Point normal(-along.y(), along.x());
     const Point at_m = face->a_m + along_m * along;
     const bool is_covered = std::ranges::any_of(kBefore_m, [&](double before_m) {
-      return std::ranges::any_of(obstacles_,
-                                 [&](const HomeObstacle& box) { return holds(box, at_m + before_m * normal); });
+      return std::ranges::any_of(
+          furniture_, [&](const HomeFurniture& piece) { return piece.box.contains(at_m + before_m * normal); });
     });
     const bool is_taken = std::ranges::any_of(tags_, [&](const WorldTag& tag) {
       return tag.marker.number == number || (tag.T_map_tag.position() - at_m).norm() < kApart_m;
@@ -66,8 +81,8 @@ class Hanging {
   }
 
   HungTagsConfig config_;
-  const std::vector<HomeFace>& faces_;
-  const std::vector<HomeObstacle>& obstacles_;
+  std::vector<HomeFace> faces_;
+  const std::vector<HomeFurniture>& furniture_;
   PortableRandom random_;
   double all_m_ = 0.0;
   std::vector<WorldTag> tags_;
@@ -75,9 +90,13 @@ class Hanging {
 
 }  // namespace
 
-std::vector<WorldTag> hung_tags(const HungTagsConfig& config, const std::vector<HomeFace>& faces,
-                                const std::vector<HomeObstacle>& obstacles, std::uint64_t seed) {
-  return Hanging(config, faces, obstacles, seed).draw();
+std::string hung_tags_yaml(const HungTagsConfig& config, const HomeToTag& home, std::uint64_t seed) {
+  std::string text = "tags:\n";
+  for (const WorldTag& tag : Hanging(config, home, seed).draw())
+    text += fmt::format("  - {{id: {}, at_m: [{:.3f}, {:.3f}], facing_deg: {:g}, height_m: {:.3f}, size_m: {:g}}}\n",
+                        tag.marker.number, tag.T_map_tag.x_m, tag.T_map_tag.y_m,
+                        std::round(degrees(tag.T_map_tag.theta_rad)), tag.height_m, tag.size_m);
+  return text;
 }
 
 }  // namespace cairn

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "framework/contracts/world.hpp"
+#include "framework/experiments/homes/home.hpp"
 
 namespace cairn {
 
@@ -14,10 +15,9 @@ struct HomeFace {
   Point b_m{0.0, 0.0};
 };
 
-// What nothing hangs behind: a piece of furniture's box.
-struct HomeObstacle {
-  Point min_m{0.0, 0.0};
-  Point max_m{0.0, 0.0};
+struct HomeFurniture {
+  HomeRoom box;
+  bool is_round = false;  // nothing hangs on it
 };
 
 struct HungTagsConfig {
@@ -25,10 +25,15 @@ struct HungTagsConfig {
   double size_m = 0.16;
 };
 
-// Tags of the family 36h11 with numbers of their own, on faces by their length, 0.2 to 0.6 m above the floor, half a
-// metre apart, with half a metre of room before the middle of each: furniture beside it may hide a part. Fewer where
-// there is no place for more.
-[[nodiscard]] std::vector<WorldTag> hung_tags(const HungTagsConfig& config, const std::vector<HomeFace>& faces,
-                                              const std::vector<HomeObstacle>& obstacles, std::uint64_t seed);
+struct HomeToTag {
+  const std::vector<HomeRoom>& rooms;
+  std::vector<HomeFace> walls;
+  std::vector<HomeFurniture> furniture;
+};
+
+// The list `tags` of a world file: of the family 36h11 with numbers of their own, on faces by their length, 0.2 to 0.6
+// m above the floor, half a metre apart, with half a metre of room before the middle of each: furniture beside it may
+// hide a part. Fewer where there is no place for more.
+[[nodiscard]] std::string hung_tags_yaml(const HungTagsConfig& config, const HomeToTag& home, std::uint64_t seed);
 
 }  // namespace cairn

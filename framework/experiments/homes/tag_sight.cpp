@@ -6,7 +6,7 @@
 namespace cairn {
 namespace {
 
-constexpr int kCircleSides = 72;
+constexpr int kSidesOfRound = 72;
 constexpr double kWithBorderRatio = 1.25;  // of a tag's size: with the white border
 constexpr double kBeforeFace_m = 0.02;
 constexpr double kEdge_px = 2.0;  // of the picture
@@ -38,7 +38,7 @@ TagSight::TagSight(const World& world) {
     for (std::size_t i = 1; i < wall.points_m.size(); ++i)
       faces_m_.emplace_back(wall.points_m[i - 1], wall.points_m[i]);
   for (const WorldObject& object : world.objects)
-    for (const std::vector<Point>& corners : object.contour.outlines_m(kCircleSides))
+    for (const std::vector<Point>& corners : object.contour.outlines_m(kSidesOfRound))
       for (std::size_t i = 0; i < corners.size(); ++i)
         faces_m_.emplace_back(object.T_map_object * corners[i],
                               object.T_map_object * corners[(i + 1) % corners.size()]);
