@@ -17,8 +17,12 @@ void CarriedWatch::update(const Observation& observation, const Pose2& T_map_rob
 }
 
 void CarriedWatch::begin_anew() {
-  doubt_.reset();
+  keep_map();
   snapshots_.clear();
+}
+
+void CarriedWatch::keep_map() {
+  doubt_.reset();
   cause_.reset();
 }
 

@@ -22,8 +22,10 @@ class CarriedWatch {
   [[nodiscard]] const std::optional<DoubtCause>& doubt() const { return cause_; }
   // What the doubt is judged by, and what a robot that was carried goes back to. There is one when there is a doubt.
   [[nodiscard]] std::shared_ptr<const MapSnapshot> before() const { return snapshots_.oldest(); }
-  // After a check, or when the robot has found itself: all begins anew.
+  // When the robot has found itself, or a check has found nothing against its place: all begins anew.
   void begin_anew();
+  // After a check that leaves it open: a doubt needs new evidence, but what the map was stays.
+  void keep_map();
 
   void record(DoubtRecord doubt);
   void record_carried(const CarriedRecord& carried) { figures_.carried.push_back(carried); }

@@ -21,6 +21,8 @@ PoseCheckRules rules_under_way() {
   return rules;
 }
 
+constexpr double kClear_ratio = 0.05;  // contradicted, at the end of a check
+
 bool has_ranges(const RobotModel& robot) {
   return !robot.sonars.empty() || !robot.lasers.empty();
 }
@@ -96,8 +98,13 @@ void MissionLoop::check_pose() {
   if (check.verdict() == PoseVerdict::carried) return lose_itself();
   perception_.drop_own_map();
   finder_.reset();
+  // A robot that was carried while it was checked has drawn two places into its own map.
+  const bool is_clear = check.looks().back().believed.contradicted_ratio < kClear_ratio;
   check_.reset();
-  watch_->begin_anew();
+  if (is_clear)
+    watch_->begin_anew();
+  else
+    watch_->keep_map();
 }
 
 // What was drawn and recognised since was in the wrong place.

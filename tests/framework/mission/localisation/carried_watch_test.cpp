@@ -49,6 +49,9 @@ TEST(CarriedWatch, NothingIsKeptOfWhatIsDrawnWhileMuchContradictsTheMap) {
   ASSERT_TRUE(doubted_at_m);
   EXPECT_LT(*doubted_at_m, 2.5);
   EXPECT_DOUBLE_EQ(watch.before()->T_map_robot.x_m, 0.0) << "the only one from before";
+  watch.keep_map();
+  EXPECT_FALSE(watch.doubt()) << "it needs new evidence";
+  EXPECT_NE(watch.before(), nullptr);
   watch.begin_anew();
   EXPECT_FALSE(watch.doubt());
   EXPECT_EQ(watch.before(), nullptr);
