@@ -9,6 +9,7 @@ namespace cairn {
 namespace {
 
 constexpr double kApart_m = 0.15;      // between places that count
+constexpr double kVisitEnds_s = 10.0;  // without a sighting
 constexpr double kMinSpread_m2 = 1.0;  // of the offsets, summed up
 constexpr std::size_t kMinSightings = 10;
 constexpr double kMaxRangeError = 0.04;  // of the ratio, from one
@@ -16,12 +17,24 @@ constexpr double kMaxReprojection_px = 1.0;
 
 }  // namespace
 
+MarkerFigures::Visit* MarkerFigures::visit(const MarkerId& marker, double time_s) {
+  std::vector<Visit>& visits = visits_[marker];
+  if (visits.empty() || time_s > visits.back().last_s + kVisitEnds_s) {
+    if (visits.size() >= kMaxVisits) return nullptr;
+    visits.emplace_back();
+  }
+  visits.back().last_s = time_s;
+  return &visits.back();
+}
+
 void MarkerFigures::note(const WorldView& world) {
   if (world.observation == nullptr || world.pose.trust == PoseTrust::lost) return;
   for (const MarkerSighting& sighting : world.observation->markers) {
     ++sightings_;
     squares_px2_ += sighting.pose.reprojection_error_px * sighting.pose.reprojection_error_px;
-    std::vector<Seen>& seen = seen_[sighting.marker];
+    Visit* const now = visit(sighting.marker, world.time_s);
+    if (now == nullptr) continue;
+    std::vector<Seen>& seen = now->seen;
     const Point robot_m = world.pose.T_map_robot.position();
     const bool is_near = !seen.empty() && (seen.back().robot_m - robot_m).norm() < kApart_m;
     if (is_near || seen.size() >= kMaxSeen) continue;
@@ -37,18 +50,19 @@ std::optional<double> MarkerFigures::range_ratio() const {
   double against = 0.0;
   double spread_m2 = 0.0;
   std::size_t count = 0;
-  for (const auto& [marker, seen] : seen_) {
-    Seen mean{{0.0, 0.0}, {0.0, 0.0}};
-    for (const Seen& one : seen) {
-      mean.robot_m += one.robot_m / static_cast<double>(seen.size());
-      mean.offset_m += one.offset_m / static_cast<double>(seen.size());
+  for (const auto& [marker, visits] : visits_)
+    for (const auto& [last_s, seen] : visits) {
+      Seen mean{{0.0, 0.0}, {0.0, 0.0}};
+      for (const Seen& one : seen) {
+        mean.robot_m += one.robot_m / static_cast<double>(seen.size());
+        mean.offset_m += one.offset_m / static_cast<double>(seen.size());
+      }
+      for (const Seen& one : seen) {
+        against -= (one.robot_m - mean.robot_m).dot(one.offset_m - mean.offset_m);
+        spread_m2 += (one.offset_m - mean.offset_m).squaredNorm();
+      }
+      count += seen.size();
     }
-    for (const Seen& one : seen) {
-      against -= (one.robot_m - mean.robot_m).dot(one.offset_m - mean.offset_m);
-      spread_m2 += (one.offset_m - mean.offset_m).squaredNorm();
-    }
-    count += seen.size();
-  }
   if (spread_m2 < kMinSpread_m2 || count < kMinSightings) return std::nullopt;
   return against / spread_m2;
 }
