@@ -42,7 +42,6 @@ class PoseDoubt {
   // Far from a doubt: what is drawn now is worth keeping.
   [[nodiscard]] bool is_quiet() const { return 2.0 * contradicted_ratio() < rules_.contradicted_ratio; }
   [[nodiscard]] double contradicted_ratio() const;  // of the readings that the map says something about
-  int known() const { return sum_.known; }          // DEBUG
   // A doubt needs new evidence.
   void reset();
 
