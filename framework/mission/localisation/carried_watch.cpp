@@ -21,6 +21,11 @@ void CarriedWatch::begin_anew() {
   snapshots_.clear();
 }
 
+void CarriedWatch::doubt_was_wrong() {
+  if (cause_ == DoubtCause::readings) doubt_.was_wrong();
+  begin_anew();
+}
+
 void CarriedWatch::keep_map() {
   doubt_.reset();
   cause_.reset();

@@ -22,8 +22,10 @@ class CarriedWatch {
   [[nodiscard]] const std::optional<DoubtCause>& doubt() const { return cause_; }
   // What the doubt is judged by, and what a robot that was carried goes back to. There is one when there is a doubt.
   [[nodiscard]] std::shared_ptr<const MapSnapshot> before() const { return snapshots_.oldest(); }
-  // When the robot has found itself, or a check has found nothing against its place: all begins anew.
+  // When the robot has found itself: all begins anew.
   void begin_anew();
+  // The same when a check has found nothing against its place; later doubts need more.
+  void doubt_was_wrong();
   // After a check that leaves it open: a doubt needs new evidence, but what the map was stays.
   void keep_map();
 

@@ -53,13 +53,16 @@ MapAnswer answer_of(const OccupancyGrid& map, const Pose2& T_map_robot, const Ra
 }
 
 PoseDoubt::PoseDoubt(const RobotModel& robot, const DoubtRules& rules)
-    : rules_(rules), compass_within_rad_(compass_within(robot)), has_compass_(robot.has_compass) {}
+    : rules_(rules),
+      doubted_from_ratio_(rules.contradicted_ratio),
+      compass_within_rad_(compass_within(robot)),
+      has_compass_(robot.has_compass) {}
 
 std::optional<DoubtCause> PoseDoubt::update(const Observation& observation, const Pose2& T_map_robot,
                                             const OccupancyGrid& before) {
   if (has_jumped(observation, T_map_robot) && !cause_) cause_ = DoubtCause::jump;
   compare(observation, T_map_robot, before);
-  if (sum_.known >= rules_.min_readings && contradicted_ratio() >= rules_.contradicted_ratio && !cause_)
+  if (sum_.known >= rules_.min_readings && contradicted_ratio() >= doubted_from_ratio_ && !cause_)
     cause_ = DoubtCause::readings;
   if (!cause_ || !does_compass_agree(observation, T_map_robot)) return std::nullopt;
   return cause_;
@@ -67,6 +70,10 @@ std::optional<DoubtCause> PoseDoubt::update(const Observation& observation, cons
 
 double PoseDoubt::contradicted_ratio() const {
   return sum_.known < rules_.min_readings ? 0.0 : static_cast<double>(sum_.contradicted) / sum_.known;
+}
+
+void PoseDoubt::was_wrong() {
+  doubted_from_ratio_ = std::min(rules_.max_contradicted_ratio, rules_.wrong_factor * doubted_from_ratio_);
 }
 
 void PoseDoubt::reset() {

@@ -24,6 +24,9 @@ struct DoubtRules {
   std::size_t max_readings = 36;  // of a piece: the rest, as of a robot that stands, says nothing more
   int min_readings = 40;          // that the map says something about
   double contradicted_ratio = 0.15;
+  // After each doubt that has proved wrong so much more, up to that: smooth walls contradict in all of some worlds.
+  double wrong_factor = 1.3;
+  double max_contradicted_ratio = 0.35;
   double jump_m = 0.3;  // more than odometry says, from one tick to the next
   double jump_rad = radians(15.0);
 };
@@ -40,8 +43,10 @@ class PoseDoubt {
   std::optional<DoubtCause> update(const Observation& observation, const Pose2& T_map_robot,
                                    const OccupancyGrid& before);
   // Far from a doubt: what is drawn now is worth keeping.
-  [[nodiscard]] bool is_quiet() const { return 2.0 * contradicted_ratio() < rules_.contradicted_ratio; }
+  [[nodiscard]] bool is_quiet() const { return 2.0 * contradicted_ratio() < doubted_from_ratio_; }
   [[nodiscard]] double contradicted_ratio() const;  // of the readings that the map says something about
+  // The doubt has proved wrong: the next one needs more.
+  void was_wrong();
   // A doubt needs new evidence.
   void reset();
 
@@ -56,6 +61,7 @@ class PoseDoubt {
   void compare(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& before);
 
   DoubtRules rules_;
+  double doubted_from_ratio_;
   double compass_within_rad_;
   bool has_compass_;
   std::optional<Pose2> T_map_robot_;   // of the last tick

@@ -102,7 +102,7 @@ void MissionLoop::check_pose() {
   const bool is_clear = check.looks().back().believed.contradicted_ratio < kClear_ratio;
   check_.reset();
   if (is_clear)
-    watch_->begin_anew();
+    watch_->doubt_was_wrong();
   else
     watch_->keep_map();
 }

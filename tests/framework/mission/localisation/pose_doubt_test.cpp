@@ -103,6 +103,21 @@ TEST(PoseDoubt, ComesWithinTwoMetresWhereTheyDoNot) {
   EXPECT_TRUE(doubt.is_quiet()) << "it needs new evidence";
 }
 
+TEST(PoseDoubt, NeedsMoreAfterDoubtsThatWereWrong) {
+  PoseDoubt doubt(robot(false));
+  const Pose2 off{0.5, 1.2, 1.0};
+  const auto at_first_m = doubted_after_m(doubt, off);
+  ASSERT_TRUE(at_first_m);
+  const double ratio = doubt.contradicted_ratio();
+  for (int i = 0; i < 10; ++i) doubt.was_wrong();
+  doubt.reset();
+  const auto later_m = doubted_after_m(doubt, off);
+  ASSERT_TRUE(later_m) << "a robot that was carried is doubted all the same";
+  EXPECT_GE(*later_m, *at_first_m);
+  EXPECT_GE(doubt.contradicted_ratio(), 0.35);
+  EXPECT_GE(ratio, 0.15);
+}
+
 TEST(PoseDoubt, OnePersonInTheRoomIsNone) {
   const OccupancyGrid map = room();
   PoseDoubt doubt(robot(false));
