@@ -71,7 +71,7 @@ TEST(SubmapGraph, PartsOfALasersRoundAreOneScan) {
       seen.ranges.push_back(reading(std::atan2(round[k].y(), round[k].x()), round[k].norm()));
     const PoseEstimate estimate = localizer.update(seen, nothing_known());
     scans += estimate.sightings_used + estimate.sightings_refused;
-    ASSERT_LT((estimate.T_map_robot.position() - truth.position()).norm(), 0.12) << i;
+    ASSERT_LT((estimate.T_map_robot.position() - truth.position()).norm(), 0.2) << i << "; odometry: 0.6 m in the end";
     const Pose2 next{0.04, 0.0, i / 25 % 4 == 0 || i / 25 % 4 == 3 ? 0.02 : -0.02};
     truth = truth * next;
     T_odom_robot = T_odom_robot * Pose2{1.1 * next.x_m, 0.0, 1.2 * next.theta_rad};
