@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 const Pose2 kT_map_marker{4.0, 1.0, radians(180.0)};
 
-struct Drive {
+struct TagDrive {
   double reprojection_px = 0.1;
   double drive_m = 2.5;
   double drifted_m = 0.0;  // of the pose that is believed
@@ -18,7 +18,7 @@ struct Drive {
 };
 
 // A robot drives towards a marker whose distances it sees wrong by a ratio.
-void drive(MarkerFigures& figures, double seen_ratio, const Drive& how) {
+void drive(MarkerFigures& figures, double seen_ratio, const TagDrive& how) {
   const OccupancyGrid grid(0.05);
   const LandmarkGraph graph;
   const RobotModel robot;
@@ -41,7 +41,7 @@ void drive(MarkerFigures& figures, double seen_ratio, const Drive& how) {
   }
 }
 
-MarkerFigures figures_of_drive(double seen_ratio, const Drive& how = {}) {
+MarkerFigures figures_of_drive(double seen_ratio, const TagDrive& how = {}) {
   MarkerFigures figures;
   drive(figures, seen_ratio, how);
   return figures;

@@ -242,7 +242,9 @@ class RedrawTest : public PerceptionTest {
     if (perception().is_map_moved()) perception().begin_redraw(next_ = std::make_shared<CountingMapper>());
     const OccupancyGrid* const grid = perception().redraw_slice(pose_);
     changes_ = perception().map(seen, pose_);
-    if (grid != nullptr) EXPECT_EQ(grid, &next_->grid());
+    if (grid != nullptr) {
+      EXPECT_EQ(grid, &next_->grid());
+    }
     return grid != nullptr;
   }
   [[nodiscard]] double first_x_m() { return perception().tracker().driven_path().front().x_m; }
@@ -363,10 +365,10 @@ TEST_F(PerceptionTest, TagsThatMoveWithACorrectedPastAreReportedOnce) {
   correcting->correct(0.5);
   ASSERT_TRUE(perception().finish());
   (void)perception().redraw(std::make_shared<CountingMapper>());
-  const std::vector<Event> events = perception().take_corrected_landmarks();
+  const std::vector<Event> events = perception().take_moved_landmarks();
   ASSERT_EQ(events.size(), 1U);
   EXPECT_NEAR(std::get<LandmarkChanged>(events[0]).landmark.T_map_landmark.x_m, 4.0 + 1.0 + 0.52, 0.02);
-  EXPECT_TRUE(perception().take_corrected_landmarks().empty());
+  EXPECT_TRUE(perception().take_moved_landmarks().empty());
 }
 
 TEST_F(PerceptionTest, TheLastCorrectionsAreAskedForUntilNothingIsLeft) {
