@@ -189,6 +189,7 @@ void Perception::draw_slice() {
 }
 
 void Perception::exchange_maps() {
+  forgotten_ = grid_->bounds();
   modules_.mapper.replace(redraw_->map());
   std::vector<Pose2> before;
   before.reserve(past_.size());
@@ -200,7 +201,6 @@ void Perception::exchange_maps() {
   redraw_.reset();
   drawn_ = past_.size();
   is_redrawn_ = true;
-  forgotten_ = grid_->bounds();
   grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
 }
 
