@@ -189,6 +189,7 @@ void Perception::draw_slice() {
 }
 
 void Perception::exchange_maps() {
+  forgotten_ = grid_->bounds();  // before its mapper goes
   forgotten_ = grid_->bounds();
   modules_.mapper.replace(redraw_->map());
   std::vector<Pose2> before;
