@@ -194,7 +194,7 @@ void Perception::draw_slice() {
 }
 
 void Perception::exchange_maps() {
-  forgotten_ = grid_->bounds();
+  forgotten_ = grid_->bounds();  // before its mapper goes
   modules_.mapper.replace(redraw_->map());
   std::vector<Pose2> before;
   before.reserve(past_.size());
