@@ -7,6 +7,7 @@
 
 #include "framework/experiments/contacts.hpp"
 #include "framework/experiments/homes/table.hpp"
+#include "framework/experiments/homes/verdict_json.hpp"
 #include "framework/experiments/recognition/curves_table.hpp"
 #include "framework/experiments/recognition/factor_table.hpp"
 #include "framework/experiments/recognition/orbit_table.hpp"
@@ -132,32 +133,6 @@ ordered_json json_of_trial(const TrialVerdict& trial) {
           {"goals", std::move(goals)}};
 }
 
-ordered_json json_of_home(const HomeVerdict& home) {
-  ordered_json json = {{"rooms", home.rooms},
-                       {"entered", home.entered},
-                       {"area_m2", home.area_m2},
-                       {"known_ratio", home.known_ratio},
-                       {"contacts", home.contacts},
-                       {"fast_contacts", home.fast_contacts},
-                       {"success", home.said_success},
-                       {"end", home.end},
-                       {"not_entered", home.not_entered}};
-  if (home.known_90_s) json["known_90_s"] = *home.known_90_s;
-  return json;
-}
-
-ordered_json json_of_tags(const TagVerdict& tags) {
-  return {{"hung", tags.hung},
-          {"in_sight", tags.in_sight},
-          {"found", tags.found},
-          {"found_besides", tags.found_besides},
-          {"false_landmarks", tags.false_landmarks},
-          {"sightings", tags.sightings},
-          {"false_sightings", tags.false_sightings},
-          {"position_error_m", tags.position_error_m},
-          {"direction_error_deg", tags.direction_error_deg}};
-}
-
 std::string cell_text(const Estimate& estimate) {
   return " " + text_of(estimate, 4) + " |";
 }
@@ -228,8 +203,8 @@ ordered_json json_of(const ExperimentRow& row, const ExperimentConfig& config) {
   if (config.experiment == ExperimentKind::orbit) json["orbit"] = json_of_orbit(config, row);
   if (config.experiment == ExperimentKind::places) json["places"] = json_of_places(config, row);
   if (row.trial) json["trial"] = json_of_trial(*row.trial);
-  if (row.home) json["home"] = json_of_home(*row.home);
-  if (row.tags) json["tags"] = json_of_tags(*row.tags);
+  if (row.home) json["home"] = ordered_json::parse(json_of(*row.home));
+  if (row.tags) json["tags"] = ordered_json::parse(json_of(*row.tags));
   if (config.experiment != ExperimentKind::maps) return json;
   for (const RunMeasure& measure : map_measures())
     if (measure.is_known(row)) json[measure.name] = measure.of(row);

@@ -62,7 +62,9 @@ LandmarkTracker::LandmarkTracker(const LandmarksConfig& config, const RobotModel
 void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std::vector<Pose2> driven_path) {
   graph_ = std::move(graph);
   candidates_ = std::move(candidates);
+  driven_before_ = driven_path;
   driven_ = DrivenPath(std::move(driven_path), driven_.max_poses());
+  association_ = LandmarkAssociation(config_, shapes_);
   markers_ = {};
   poses_ = 0;
   placed_.clear();
@@ -71,66 +73,6 @@ void LandmarkTracker::restore(LandmarkGraph graph, LandmarkGraph candidates, std
   for (const auto& [id, candidate] : candidates_.landmarks())
     placed_[{id, true}] = {candidate.T_map_landmark, std::nullopt};
   name_marker_categories();
-}
-
-std::vector<LandmarkTracker::Change> LandmarkTracker::move(const MapMove& move) {
-  driven_ = DrivenPath(driven_.max_poses());
-  for (const Pose2& pose : move.after()) driven_.record(pose);
-  // Poses before these are of an earlier run.
-  poses_ = move.poses();
-  std::vector<Change> changes;
-  move_routes(move);
-  move_landmarks(move, changes);
-  markers_.correct(move.after());
-  for (const MarkerId& marker : markers_.markers()) place_marker(marker, changes);
-  association_.forget_places();
-  return changes;
-}
-
-// After each change of landmarks. A candidate that has become a landmark was placed when the candidate was.
-void LandmarkTracker::note_places() {
-  std::map<LandmarkRef, Placed> placed;
-  const auto now = poses_ == 0 ? std::nullopt : std::optional(poses_ - 1);
-  const auto note = [&](LandmarkRef ref, const Pose2& T_map_landmark) {
-    const auto is_there = [&](const auto& known) { return known.second.T_map_landmark == T_map_landmark; };
-    auto known = placed_.find(ref);
-    if (known == placed_.end() || !is_there(*known)) known = std::ranges::find_if(placed_, is_there);
-    placed[ref] = known != placed_.end() ? known->second : Placed{T_map_landmark, now};
-  };
-  for (const auto& [id, landmark] : graph_.landmarks())
-    if (!landmark.marker) note({id, false}, landmark.T_map_landmark);
-  for (const auto& [id, candidate] : candidates_.landmarks()) note({id, true}, candidate.T_map_landmark);
-  placed_ = std::move(placed);
-}
-
-void LandmarkTracker::move_landmarks(const MapMove& move, std::vector<Change>& changes) {
-  for (auto& [ref, placed] : placed_) {
-    Landmark* const landmark = (ref.is_candidate ? candidates_ : graph_).find(ref.id);
-    if (landmark == nullptr || !placed.pose_number || *placed.pose_number >= move.poses()) continue;
-    const Pose2 T = move.of_pose(*placed.pose_number);
-    if (T == Pose2{}) continue;
-    landmark->T_map_landmark = T * landmark->T_map_landmark;
-    if (landmark->access) landmark->access = T * *landmark->access;
-    placed.T_map_landmark = landmark->T_map_landmark;
-    if (!ref.is_candidate) changes.push_back({ref.id, ChangeKind::changed});
-  }
-}
-
-// They keep their ids. Where one is blocked now, or too far off, it is planned again when landmarks are joined next.
-void LandmarkTracker::move_routes(const MapMove& move) {
-  const std::map<RouteId, Route> routes = graph_.routes();
-  for (const auto& [id, route] : routes) {
-    const auto is_of_this_run = [&](LandmarkId end) {
-      const auto placed = placed_.find({end, false});
-      return placed != placed_.end() && placed->second.pose_number.has_value();
-    };
-    if (route.trajectory.empty() || !is_of_this_run(route.from) || !is_of_this_run(route.to)) continue;
-    Route moved = route;
-    for (Pose2& pose : moved.trajectory) pose = move.near(pose.position()) * pose;
-    moved.trajectory = in_whole_steps(std::move(moved.trajectory));
-    graph_.remove_route(id);
-    graph_.add_route(std::move(moved));
-  }
 }
 
 void LandmarkTracker::expect_markers(std::map<int, std::string> categories, int confirm_sightings) {

@@ -87,6 +87,7 @@ class LandmarkTracker {
   LandmarkGraph graph_;
   LandmarkGraph candidates_;  // seen, but not confirm_sightings times yet
   DrivenPath driven_;
+  std::vector<Pose2> driven_before_;  // by an earlier run, or before the robot was lost
   LandmarkConnector connector_;
   MarkerTracker markers_;
   std::map<int, std::string> marker_categories_;  // by number

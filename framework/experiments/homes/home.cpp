@@ -21,8 +21,7 @@ constexpr double kBeforeDoor_m = 0.9;
 
 struct Piece {
   std::string outline;
-  HomeRoom box;
-  bool is_round = false;
+  HomeFurniture shape;
 };
 
 // A side that two rooms share, before their walls are taken off.
@@ -195,7 +194,8 @@ class HomeDrawing {
       const HomeRoom kept{door.middle_m - reach.cwiseMax(before), door.middle_m + reach.cwiseMax(before)};
       if (gap_m(kept, box) <= 0.0) return false;
     }
-    return std::ranges::none_of(pieces_, [&](const Piece& piece) { return gap_m(piece.box, box) < config_.gap_m; });
+    return std::ranges::none_of(pieces_,
+                                [&](const Piece& piece) { return gap_m(piece.shape.box, box) < config_.gap_m; });
   }
 
   // Against a wall or in a corner: cupboards, beds, sofas. Free: tables, and round ones.
@@ -218,12 +218,12 @@ class HomeDrawing {
         const Point middle_m = 0.5 * (box.min_m + box.max_m);
         return Piece{
             fmt::format("circle_diameter_m: {:.3f}, at_m: [{:.3f}, {:.3f}]", size_m.x(), middle_m.x(), middle_m.y()),
-            box, true};
+            {box, true}};
       }
       return Piece{fmt::format("polygon_m: [[{0:.3f}, {1:.3f}], [{2:.3f}, {1:.3f}], [{2:.3f}, {3:.3f}], [{0:.3f}, "
                                "{3:.3f}]]",
                                box.min_m.x(), box.min_m.y(), box.max_m.x(), box.max_m.y()),
-                   box};
+                   {box, false}};
     }
     return std::nullopt;
   }
@@ -245,7 +245,7 @@ class HomeDrawing {
       home_.start_m.x() = things_.between(room.min_m.x() + kRoom_m, room.max_m.x() - kRoom_m);
       home_.start_m.y() = things_.between(room.min_m.y() + kRoom_m, room.max_m.y() - kRoom_m);
       const bool is_free = std::ranges::none_of(pieces_, [&](const Piece& piece) {
-        const Point apart = (piece.box.min_m - home_.start_m).cwiseMax(home_.start_m - piece.box.max_m);
+        const Point apart = (piece.shape.box.min_m - home_.start_m).cwiseMax(home_.start_m - piece.shape.box.max_m);
         return apart.maxCoeff() < kRoom_m;
       });
       if (is_free) break;
@@ -292,14 +292,6 @@ class HomeDrawing {
                        from_m.y(), to_m.x(), to_m.y());
   }
 
-  [[nodiscard]] std::string tags_yaml() const {
-    if (config_.tags == 0) return {};
-    std::vector<HomeFurniture> furniture;
-    furniture.reserve(pieces_.size());
-    for (const Piece& piece : pieces_) furniture.push_back({piece.box, piece.is_round});
-    return hung_tags_yaml({config_.tags, config_.tag_size_m}, {home_.rooms, sides(), furniture}, seed_);
-  }
-
   [[nodiscard]] std::string yaml() const {
     std::string text = fmt::format("# A random home: {} rooms, {} doors.\n", home_.rooms.size(), home_.doors.size());
     text += fmt::format("bounds_m: [[0, 0], [{:.3f}, {:.3f}]]\nwalls:\n", size_m_.x(), size_m_.y());
@@ -315,8 +307,10 @@ class HomeDrawing {
       }
     if (!pieces_.empty()) text += "objects:\n";
     for (const Piece& piece : pieces_) text += "  - {" + piece.outline + ", surface: rough}\n";
-    text += tags_yaml();
-    return text;
+    std::vector<HomeFurniture> furniture;
+    furniture.reserve(pieces_.size());
+    for (const Piece& piece : pieces_) furniture.push_back(piece.shape);
+    return text + hung_tags_yaml({config_.tags, config_.tag_size_m}, {home_.rooms, sides(), furniture}, seed_);
   }
 
   HomesConfig config_;

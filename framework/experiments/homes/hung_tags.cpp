@@ -91,6 +91,7 @@ class Hanging {
 }  // namespace
 
 std::string hung_tags_yaml(const HungTagsConfig& config, const HomeToTag& home, std::uint64_t seed) {
+  if (config.count == 0) return {};
   std::string text = "tags:\n";
   for (const WorldTag& tag : Hanging(config, home, seed).draw())
     text += fmt::format("  - {{id: {}, at_m: [{:.3f}, {:.3f}], facing_deg: {:g}, height_m: {:.3f}, size_m: {:g}}}\n",

@@ -11,7 +11,9 @@ constexpr std::size_t kMaxDoubts = 100;  // that are kept for the report
 void CarriedWatch::update(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& map,
                           const Landmarks& landmarks) {
   const bool is_due = snapshots_.drive(T_map_robot);
-  if (is_due && doubt_.is_quiet() && map.bytes() <= MapSnapshots::kMaxBytes)
+  if (map.bytes() > MapSnapshots::kMaxBytes)
+    snapshots_.clear();
+  else if (is_due && doubt_.is_quiet())
     snapshots_.add(std::make_shared<const MapSnapshot>(MapSnapshot{map, landmarks(), T_map_robot}));
   if (const auto before = snapshots_.oldest()) cause_ = doubt_.update(observation, T_map_robot, before->grid);
 }
@@ -28,6 +30,7 @@ void CarriedWatch::doubt_was_wrong() {
 
 void CarriedWatch::keep_map() {
   doubt_.reset();
+  snapshots_.begin_distance();
   cause_.reset();
 }
 

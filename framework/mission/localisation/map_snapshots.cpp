@@ -16,6 +16,10 @@ void MapSnapshots::add(std::shared_ptr<const MapSnapshot> snapshot) {
 
 void MapSnapshots::clear() {
   kept_.clear();
+  begin_distance();
+}
+
+void MapSnapshots::begin_distance() {
   T_map_robot_.reset();
   driven_m_ = 0.0;
 }

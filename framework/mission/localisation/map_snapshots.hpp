@@ -35,6 +35,8 @@ class MapSnapshots {
   void add(std::shared_ptr<const MapSnapshot> snapshot);
   // The oldest; none: there is none.
   [[nodiscard]] std::shared_ptr<const MapSnapshot> oldest() const { return kept_.empty() ? nullptr : kept_.front(); }
+  // What has been driven meanwhile does not count: the next copy is due after kEvery_m from here.
+  void begin_distance();
   void clear();
 
  private:

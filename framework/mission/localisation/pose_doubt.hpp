@@ -43,7 +43,7 @@ class PoseDoubt {
   std::optional<DoubtCause> update(const Observation& observation, const Pose2& T_map_robot,
                                    const OccupancyGrid& before);
   // Far from a doubt: what is drawn now is worth keeping.
-  [[nodiscard]] bool is_quiet() const { return 2.0 * contradicted_ratio() < doubted_from_ratio_; }
+  [[nodiscard]] bool is_quiet() const { return 2.0 * contradicted_ratio() < rules_.contradicted_ratio; }
   [[nodiscard]] double contradicted_ratio() const;  // of the readings that the map says something about
   // The doubt has proved wrong: the next one needs more.
   void was_wrong();

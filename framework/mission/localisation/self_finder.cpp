@@ -79,6 +79,11 @@ void SelfFinder::take(const Answer& answer) {
   looks_.push_back(std::move(look));
 }
 
+void SelfFinder::forget_markers() {
+  marker_guess_.reset();
+  by_marker_.reset();
+}
+
 void SelfFinder::see_markers(const Observation& observation, const Pose2& T_local_robot, const LandmarkGraph& known) {
   for (const MarkerSighting& sighting : observation.markers) {
     const auto is_same = [&](const MarkerSighting& other) { return other.marker == sighting.marker; };

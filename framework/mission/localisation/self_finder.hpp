@@ -48,6 +48,8 @@ class SelfFinder {
   void update(const Observation& observation, const Pose2& T_local_robot, const OccupancyGrid& seen, double time_s);
   // After update(): markers in that observation that the map holds.
   void see_markers(const Observation& observation, const Pose2& T_local_robot, const LandmarkGraph& known);
+  // What markers have said so far may be of where the robot was before.
+  void forget_markers();
   // Each search also looks at where the robot is if it began at T_map_start: looks() has one more then. T_local_robot:
   // with the first observation. The frames are the same, or turned to each other by more than a compass can be wrong.
   void compare_with(const Pose2& T_map_start, const Pose2& T_local_robot);

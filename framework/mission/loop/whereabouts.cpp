@@ -113,6 +113,7 @@ void MissionLoop::lose_itself() {
   const PoseEstimate own_pose = perception_.own_pose();
   world_.lose(own_pose, perception_.lose(), check_->before->grid, check_->before->T_map_robot);
   if (!check_->cause) saving_.leave_map_alone(true);
+  finder_->forget_markers();
   localisation_ = finder_->figures();
   if (check_->cause)
     watch_->record_carried({world_.time_s, counts_.figures().distance_m, check_->check.looks().back().driven_m});
@@ -125,15 +126,14 @@ void MissionLoop::publish_carried(std::size_t landmarks_forgotten) {
   const std::string why = fmt::format("({:.0f} % of what it has seen in {:.1f} m contradicts the map)",
                                       100.0 * look.believed.contradicted_ratio, look.driven_m);
   if (check_->cause)
-    publisher_.publish(
-        Message{fmt::format("the robot is not where it was believed to be: it was carried, or has slipped {}. It looks "
-                            "where it is; the map "
-                            "is as it was some metres before that, {} forgotten",
-                            why, counted(landmarks_forgotten, "landmark"))});
+    publisher_.publish(Message{
+        fmt::format("the robot is not where it was believed to be: it was carried, or has slipped {}. It finds out "
+                    "where it is; the map is as it was some metres before that, {} forgotten",
+                    why, counted(landmarks_forgotten, "landmark"))});
   else
     publisher_.publish(Message{fmt::format(
         "the robot is not where the map was left: it was carried while it was off, or the map is not of this place {}. "
-        "It looks where it is; the map stays as it was until then",
+        "It finds out where it is; the map stays as it was until then",
         why)});
 }
 

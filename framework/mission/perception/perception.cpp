@@ -196,6 +196,7 @@ void Perception::draw_slice() {
 void Perception::exchange_maps() {
   forgotten_ = grid_->bounds();  // before its mapper goes
   modules_.mapper.replace(redraw_->map());
+  grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
   std::vector<Pose2> before;
   before.reserve(past_.size());
   for (const StampedPose& pose : past_.poses()) before.push_back(pose.T_map_robot);
@@ -206,7 +207,6 @@ void Perception::exchange_maps() {
   redraw_.reset();
   drawn_ = past_.size();
   is_redrawn_ = true;
-  grid_ = &modules_.mapper.call([](Mapper& mapper) -> const OccupancyGrid& { return mapper.grid(); });
 }
 
 const OccupancyGrid* Perception::redraw_slice(PoseEstimate& pose) {

@@ -19,7 +19,9 @@ void move(const Pose2& T_now_then, MarkerPose& pose) {
 
 void SightingMotion::add(double stamp_s, const Pose2& T_odom_robot) {
   known_.push_back({stamp_s, T_odom_robot});
-  while (known_.front().stamp_s < stamp_s - kKept_s) known_.pop_front();
+  const auto kept =
+      std::ranges::find_if(known_, [&](const Known& known) { return known.stamp_s >= stamp_s - kKept_s; });
+  known_.erase(known_.begin(), kept);
 }
 
 Pose2 SightingMotion::at(double stamp_s) const {

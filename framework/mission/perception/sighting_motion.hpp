@@ -2,7 +2,7 @@
 // observation that it comes with, and the robot has moved on.
 #pragma once
 
-#include <deque>
+#include <vector>
 
 #include "framework/contracts/observation.hpp"
 
@@ -23,7 +23,7 @@ class SightingMotion {
   };
   [[nodiscard]] Pose2 at(double stamp_s) const;
 
-  std::deque<Known> known_;
+  std::vector<Known> known_;
 };
 
 }  // namespace cairn

@@ -74,6 +74,7 @@ void Exploration::begin_here(const WorldView& world) {
 // Where it was going is elsewhere now; it has looked around already.
 void Exploration::begin_in_new_map(const WorldView& world) {
   begin_here(world);
+  chooser_.forget_passed(world);
   set_mode(Mode::travel, world.time_s);
 }
 

@@ -45,12 +45,17 @@ TaskChooser::TaskChooser(const ExploreConfig& config, const WorldView& world)
 
 void TaskChooser::begin_here(const WorldView& world) {
   forget_echoes(world);
+  is_in_passage_ = false;
   memory_.trace.push_back(world.pose.T_map_robot);
 }
 
 void TaskChooser::forget_echoes(const WorldView& world) {
   spaces_.clear();
   near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
+}
+
+void TaskChooser::forget_passed(const WorldView& world) {
+  passed_ = NearEchoes(world.grid, config_.exploring.passages.passed);
 }
 
 void TaskChooser::begin_look(const WorldView& world, const Point& opening) {

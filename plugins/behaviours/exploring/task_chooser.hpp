@@ -65,6 +65,8 @@ class TaskChooser {
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const;
   // Noise can wall the robot in where it just came through: it cannot go back to where it has been.
   [[nodiscard]] bool is_shut_in(const WorldView& world) const;
+  // What echoes have passed: in a map that was drawn anew it lies elsewhere.
+  void forget_passed(const WorldView& world);
   // Where the robot can go, as for the last choice.
   [[nodiscard]] FreeSpace space(const WorldView& world) const { return space_within(search_, world); }
   // Back along the trace, for some metre. None: the robot has not come so far.

@@ -30,9 +30,11 @@ TEST(RobotFile, EveryShippedRobotLoads) {
     SCOPED_TRACE(entry.path());
     const RobotModel robot = load_robot(entry.path());
     EXPECT_FALSE(robot.name.empty());
-    // The beams of recorded lasers come with their logs; a TurtleBot has a laser alone.
-    EXPECT_EQ(robot.sonars.empty(), (entry.path().stem() == "laser_robot" || entry.path().stem() == "lego_robot" ||
-                                     entry.path().stem() == "turtlebot3"));
+    // The beams of recorded lasers come with their logs; some have a laser alone.
+    const std::string stem = entry.path().stem();
+    const bool has_lasers_alone = stem == "laser_robot" || stem == "lego_robot" || stem.starts_with("turtlebot3") ||
+                                  stem == "pioneer3dx_laser_camera";
+    EXPECT_EQ(robot.sonars.empty(), has_lasers_alone);
     EXPECT_EQ(robot.firing_period_s, 0.04);
     EXPECT_EQ(robot.firing_order.size(), robot.sonars.size());
     for (const SonarModel& sonar : robot.sonars) {
