@@ -280,6 +280,8 @@ void PassageSettings::describe(Fields<PassageSettings>& fields) {
   fields.number("beside_m", &C::beside_m, {0.0, 100.0}, "m", "within this");
   fields.integer("max_suspects", &C::max_suspects, {0.0, 1e4}, "at most so many walls are looked at again");
   fields.integer("max_tries", &C::max_tries, {0.0, 100.0}, "how often a passage is tried before it is given up");
+  fields.integer("max_passes", &C::max_passes, {1.0, 1000.0},
+                 "how often one is driven through again on the way to something behind it");
   fields.group("echoes", &C::echoes, "how wide a passage is by the echoes of a look");
   fields.group("passed", &C::passed,
                "what counts as passed by echoes while the robot drives: walls that echoes have passed are looked at");

@@ -34,6 +34,7 @@ struct PassageSettings {
   double beside_m = 2.0;
   int max_suspects = 8;
   int max_tries = 2;
+  int max_passes = 8;
   OpeningEchoSettings echoes;
   NearEchoSettings passed{
       .within_m = 4.0, .hit = 10, .passed = -40, .solid_at = 32000, .free_at = -120, .clamp_nat = 0.8};

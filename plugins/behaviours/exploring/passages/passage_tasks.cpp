@@ -143,6 +143,7 @@ void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::s
   if (has_passed) forget_unreachable();
   Tried& tried = at(task.about);
   ++tried.tries;
+  tried.passes += has_passed ? 1 : 0;
   tried.failures = has_passed ? 0 : tried.failures + 1;
   tried.why = why;
   tried.was_passed = tried.was_passed || has_passed;
@@ -158,7 +159,8 @@ std::optional<ExploreTask> PassageTasks::passed_on(const std::vector<Point>& pat
     const Point p = motion::point_along(path, s);
     for (const Tried& tried : tried_) {
       const bool is_blocked = tried.failures >= settings_.max_tries;  // now
-      if (!tried.was_passed || is_blocked || !tried.heard ||
+      const bool is_in_vain = tried.passes >= settings_.max_passes;   // what is behind it is not got to by this way
+      if (!tried.was_passed || is_blocked || is_in_vain || !tried.heard ||
           (p - tried.heard->middle_m).norm() > 0.5 * tried.heard->width_m)
         continue;
       HeardOpening through = *tried.heard;

@@ -68,6 +68,7 @@ class PassageTasks {
     std::optional<HeardOpening> heard;  // when it was looked at last, or before where that was wider
     std::optional<HeardOpening> heard_before;
     int tries = 0;
+    int passes = 0;
     int failures = 0;         // in a row
     bool is_suspect = false;  // a wall that may hide a door
     bool is_too_narrow = false;

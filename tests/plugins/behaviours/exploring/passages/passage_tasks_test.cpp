@@ -180,6 +180,17 @@ TEST(PassageTasks, WhoHasJustComeThroughDoesNotGoThroughAgainOnTheWayOn) {
   EXPECT_TRUE(passing.tasks.passed_on({behind, there.lookout}, kRadius_m)) << "back";
 }
 
+TEST(PassageTasks, OneIsNotPassedToAndFroForEver) {
+  Passing passing(5);
+  const ExploreTask there = *passing.look(0.7);
+  passing.tasks.record(there, true, {});
+  int drives = 0;
+  for (std::optional<ExploreTask> task;
+       drives < 100 && (task = passing.tasks.passed_on({there.lookout, there.beyond_m}, kRadius_m)); ++drives)
+    passing.tasks.record(*task, true, {});
+  EXPECT_EQ(drives, PassageSettings{}.max_passes - 1);
+}
+
 TEST(PassageTasks, OneThatWasPassedAndIsBlockedNowIsNotDrivenIntoForEver) {
   Passing passing(5);
   const ExploreTask there = *passing.look(0.7);
