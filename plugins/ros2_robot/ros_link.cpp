@@ -260,7 +260,11 @@ std::vector<ConnectionPart> RosLink::parts() {
     if (parts.back().problem.empty() && config_.stamp == Stamp::header)
       parts.back().problem = observer_.heard().clocks_apart(config_.ranges[i].topic, config_.odometry);
   }
-  for (const Entity& images : images_.readers()) parts.push_back(report.of_reader(images, Importance::steady));
+  for (std::size_t i = 0; i < images_.readers().size(); ++i) {
+    parts.push_back(report.of_reader(images_.readers()[i], Importance::steady));
+    if (parts.back().problem.empty() && config_.stamp == Stamp::header)
+      parts.back().problem = observer_.heard().clocks_apart(config_.images[i].topic, config_.odometry);
+  }
   if (compass_) parts.push_back(report.of_reader(compass_, Importance::steady));
   if (battery_) parts.push_back(report.of_reader(battery_, Importance::said_rarely));
   for (const Entity& bumper : bumpers_) parts.push_back(report.of_reader(bumper, Importance::said_rarely));

@@ -131,7 +131,6 @@ std::vector<TemplateMatch> TemplateMatcher::search(std::span<const CellSpan> reg
   return matches;
 }
 
-// On the cell: the cells that are seen there, all of them where none is hidden, and what the others count as.
 // What is hidden counts as fitting to hidden_degree, where it fits worse.
 PlaceInCell TemplateMatcher::place_of(std::size_t index, Cell at, bool between, const OccupancyGrid& grid) const {
   const auto measured = [&](const LandmarkTemplate& shape) {

@@ -22,7 +22,7 @@
 
 namespace cairn {
 
-// Of a run that leaves its map alone.
+// Of a robot that was lost: in a map that is left alone, or carried.
 struct LocalisationFigures {
   bool is_pose_given = false;
   std::optional<double> found_s;  // by the mission's clock; none: lost still, or the pose was given

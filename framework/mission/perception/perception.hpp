@@ -78,7 +78,7 @@ class Perception {
   [[nodiscard]] bool finish();
   // All of it at once; its grid. A run that is cancelled meanwhile keeps the map that it has.
   const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
-  // What that has done to the landmarks, if recognise() has not told it; once.
+  // What that has done to the landmarks, if recognise() has not reported it; once.
   [[nodiscard]] std::vector<Event> take_moved_landmarks();
   // What the localizer knows of submaps; none from one that has none.
   [[nodiscard]] KeptSubmaps submaps();
@@ -139,7 +139,7 @@ class Perception {
   DrawnFrame frame_;              // of the map
   std::optional<Redraw> redraw_;  // under way
   std::optional<MapMove> last_move_;
-  std::vector<LandmarkTracker::Change> moved_;  // by it, not told yet
+  std::vector<LandmarkTracker::Change> moved_;  // by it, not reported yet
   std::size_t drawn_ = 0;                       // size of the past when the map was last drawn anew
   bool is_redrawn_ = false;
   SightingMotion sighting_motion_;
