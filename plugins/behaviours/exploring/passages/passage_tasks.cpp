@@ -26,10 +26,11 @@ std::string sentence_of(const NotEntered& opening) {
   return text;
 }
 
+// The nearest: where a middle was heard beside where the map has it, two may come to lie close together.
 const PassageTasks::Tried* PassageTasks::find(const Point& at_m) const {
-  const auto found =
-      std::ranges::find_if(tried_, [&](const Tried& t) { return (t.at_m - at_m).norm() < settings_.same_m; });
-  return found == tried_.end() ? nullptr : &*found;
+  const auto away_m = [&](const Tried& tried) { return (tried.at_m - at_m).norm(); };
+  const auto nearest = std::ranges::min_element(tried_, {}, away_m);
+  return nearest == tried_.end() || away_m(*nearest) >= settings_.same_m ? nullptr : &*nearest;
 }
 
 const PassageTasks::Tried* PassageTasks::given_up_beside(const Point& at_m) const {
@@ -45,12 +46,10 @@ const PassageTasks::Tried* PassageTasks::given_up_beside(const Point& at_m) cons
 }
 
 PassageTasks::Tried& PassageTasks::at(const Point& at_m) {
-  const auto found =
-      std::ranges::find_if(tried_, [&](const Tried& t) { return (t.at_m - at_m).norm() < settings_.same_m; });
-  if (found != tried_.end()) return *found;
-  Tried tried;
+  if (const Tried* const known = find(at_m)) return tried_[static_cast<std::size_t>(known - tried_.data())];
+  Tried& tried = tried_.emplace_back();
   tried.at_m = at_m;
-  return *tried_.insert(tried_.end(), tried);
+  return tried;
 }
 
 std::vector<Point> PassageTasks::places_where(bool (*is_so)(const Tried&)) const {
