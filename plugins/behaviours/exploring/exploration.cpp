@@ -175,27 +175,16 @@ void Exploration::arrive(const WorldView& world) {
   task_.reset();
 }
 
-// A ring that fires slowly hears as often as others only if it listens longer.
-double Exploration::dwell_for(const ExploreTask& task, const RobotModel& robot) const {
-  const ExploreFaceSettings& face = config_.exploring.face;
-  if (task.kind != TaskKind::opening) return face.dwell_s;
-  const std::size_t fired = robot.firing_order.empty() ? robot.sonars.size() : robot.firing_order.size();
-  const double round_s = static_cast<double>(fired) * robot.firing_period_s;
-  return std::max(face.opening_dwell_s, face.opening_rounds * round_s);
-}
-
 // Turns the sonars to what is still unknown; what they cannot settle from here is given up.
 Status Exploration::face(const WorldView& world, BehaviourContext& context) {
   const bool is_opening = task_->kind == TaskKind::opening;
   const motion::TurnSettings& turn = config_.driving.turn;
   const double error_rad = motion::heading_error(world.pose.T_map_robot, task_->about);
-  const ExploreFaceSettings& settings = config_.exploring.face;
-  const double dwell_s = dwell_for(*task_, world.robot);
-  const double longer_s = std::max(0.0, dwell_s - settings.opening_dwell_s);
-  const bool has_time = world.time_s - mode_since_s_ < settings.at_most_s + longer_s;
+  const bool has_time = world.time_s - mode_since_s_ < config_.exploring.face.at_most_s;
+  const double dwell_s = is_opening ? config_.exploring.face.opening_dwell_s : config_.exploring.face.dwell_s;
   const bool is_sweeping = is_opening && is_faced_;
   if (is_opening) chooser_.look_through(world, task_->about);
-  if (std::abs(error_rad) > settings.faced_rad && has_time && !is_sweeping) {
+  if (std::abs(error_rad) > config_.exploring.face.faced_rad && has_time && !is_sweeping) {
     faced_s_ = world.time_s;
     follower_.drive(motion::turn_by(error_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   } else if (world.time_s - faced_s_ >= dwell_s || !has_time ||
@@ -204,7 +193,7 @@ Status Exploration::face(const WorldView& world, BehaviourContext& context) {
   } else if (is_opening) {
     is_faced_ = true;
     const double phase_rad = 2.0 * std::numbers::pi * (world.time_s - faced_s_) / std::max(dwell_s, 0.1);
-    const double off_rad = error_rad + settings.sweep_rad * std::sin(phase_rad);
+    const double off_rad = error_rad + config_.exploring.face.sweep_rad * std::sin(phase_rad);
     follower_.drive(motion::turn_by(off_rad, motion::max_turn_radps(world.robot, turn), turn), world, context);
   }
   return {StepState::running, "facing what is still unknown"};

@@ -45,7 +45,6 @@ class Exploration {
   Status nothing_left(const WorldView& world, BehaviourContext& context);
   void arrive(const WorldView& world);
   void begin_passage(const WorldView& world);
-  [[nodiscard]] double dwell_for(const ExploreTask& task, const RobotModel& robot) const;
   void end_facing(const WorldView& world, BehaviourContext& context);
   Status get_unstuck(const WorldView& world, BehaviourContext& context);
   Status turn_back(const WorldView& world);

@@ -80,8 +80,6 @@ void ExploreFaceSettings::describe(Fields<ExploreFaceSettings>& fields) {
   fields.angle("faced_deg", &C::faced_rad, {0.1, 180.0}, "a heading error within this is faced");
   fields.number("dwell_s", &C::dwell_s, {0.0, 600.0}, "s", "unknown ground is faced for so long");
   fields.number("opening_dwell_s", &C::opening_dwell_s, {0.0, 600.0}, "s", "and an opening for so long");
-  fields.integer("opening_rounds", &C::opening_rounds, {0.0, 1000.0},
-                 "or for so many rounds of the sonars, if that is longer");
   fields.angle("sweep_deg", &C::sweep_rad, {0.0, 90.0}, "sweeping the sonars by this to either side meanwhile");
   fields.number("at_most_s", &C::at_most_s, {0.0, 600.0}, "s", "with the turn to it, at most");
 }

@@ -68,7 +68,6 @@ struct ExploreFaceSettings {
   double faced_rad = radians(8.0);
   double dwell_s = 0.6;  // one round of the sonars, about
   double opening_dwell_s = 4.0;
-  int opening_rounds = 12;
   double sweep_rad = radians(20.0);
   double at_most_s = 8.0;
   static void describe(Fields<ExploreFaceSettings>& fields);
