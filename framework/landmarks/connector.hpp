@@ -19,9 +19,9 @@
 
 #include "framework/contracts/planner.hpp"
 #include "framework/contracts/robot_model.hpp"
+#include "framework/landmarks/association/join_candidates.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/driven_path.hpp"
-#include "framework/landmarks/join_candidates.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 

@@ -9,11 +9,11 @@
 
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/robot_model.hpp"
-#include "framework/landmarks/association.hpp"
+#include "framework/landmarks/association/association.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/connector.hpp"
 #include "framework/landmarks/map_move.hpp"
-#include "framework/landmarks/marker_tracker.hpp"
+#include "framework/landmarks/markers/marker_tracker.hpp"
 #include "maps/geometry/contour.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 

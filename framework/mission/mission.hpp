@@ -13,7 +13,7 @@
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/world.hpp"
 #include "framework/files/template_settings.hpp"
-#include "framework/landmarks/marker_config.hpp"
+#include "framework/landmarks/markers/marker_config.hpp"
 #include "framework/landmarks/tracker.hpp"
 #include "framework/mission/autosave.hpp"
 #include "framework/mission/history.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/landmarks/marker_tracker.hpp"
+#include "framework/landmarks/markers/marker_tracker.hpp"
 
 namespace cairn {
 namespace {

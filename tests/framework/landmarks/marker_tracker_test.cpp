@@ -1,4 +1,4 @@
-#include "framework/landmarks/marker_tracker.hpp"
+#include "framework/landmarks/markers/marker_tracker.hpp"
 
 #include <gtest/gtest.h>
 

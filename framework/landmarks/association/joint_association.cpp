@@ -1,4 +1,4 @@
-#include "framework/landmarks/joint_association.hpp"
+#include "framework/landmarks/association/joint_association.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "framework/landmarks/marker_config.hpp"
+#include "framework/landmarks/markers/marker_config.hpp"
 
 namespace cairn {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/landmarks/association.hpp"
+#include "framework/landmarks/association/association.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "framework/landmarks/join_candidates.hpp"
+#include "framework/landmarks/association/join_candidates.hpp"
 
 #include <functional>
 #include <map>

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "framework/contracts/localizer.hpp"
-#include "framework/landmarks/joint_association.hpp"
+#include "framework/landmarks/association/joint_association.hpp"
 #include "framework/landmarks/template_sets.hpp"
 
 namespace cairn {
