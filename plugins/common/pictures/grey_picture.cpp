@@ -168,7 +168,7 @@ CameraImage unpacked(std::span<const std::uint8_t> bytes) {
 CameraImage grey_of(const RawPicture& raw) {
   check_limits(raw.width_px, raw.height_px);
   const Encoding& encoding = encoding_of(raw);
-  const std::size_t row = raw.width_px * std::size_t{CV_ELEM_SIZE(encoding.type)};
+  const std::size_t row = raw.width_px * static_cast<std::size_t>(CV_ELEM_SIZE(encoding.type));
   if (raw.step < row || raw.data.size() / raw.step < raw.height_px)
     throw std::runtime_error(fmt::format("its {} bytes in rows of {} are too few for {} x {} pixels in {}",
                                          raw.data.size(), raw.step, raw.width_px, raw.height_px, raw.encoding));
