@@ -3,6 +3,7 @@
 
     tests/bench/kidnapped_table.py OUT [RUNS [WORLD...]]
     tests/bench/kidnapped_table.py OUT RUNS --homes RUN...
+    tests/bench/kidnapped_table.py OUT RUNS --worlds RUN...
 
 Each world is mapped once by `explore`. Then RUNS robots begin at random places and headings, and know nothing but the
 map and a compass. Starts that the map does not hold as free are a group of their own: there is nothing to be found.
@@ -11,6 +12,9 @@ RUN is the folder of a run of config/experiments/tags.yaml: a home with tags, as
 places that its map holds as free: half of them anywhere, half in front of a tag (1 to 2.5 m, up to 45 degrees aslant,
 turned up to 20 degrees off it); each twice, with the tags of the map and without. By shapes a pose is believed after
 4 m at the earliest: who finds itself before has done so by tags.
+
+With --worlds, RUN is the folder of a run of config/experiments/recognition.yaml: a random world with landmarks. Robots
+begin at places that its map holds as free.
 """
 import concurrent.futures, json, math, pathlib, random, re, statistics, subprocess, sys
 
@@ -94,6 +98,24 @@ planner: {{plugin: hybrid}}
 """
 
 
+RANDOM_WORLD_START_M = (0.6, 0.6)  # of the run that mapped it
+TRIED_PLACES = 200
+RANDOM_WORLD = """mission: kidnapped
+seed: 1
+robot: {root}/config/robots/pioneer1.yaml
+world: {folder}/world.yaml
+start: {{at_m: [{x}, {y}], angle_deg: {angle}}}
+sensor: {{plugin: simulated_robot}}
+localizer: {{plugin: odometry_compass}}
+map: {{plugin: muriel, cell_m: 0.05, false_echo_per_m: 2}}
+detector: {{plugin: template_matcher, templates: {root}/config/templates, sizes: [1, 1.07], coarse_cells: 5, degrees: above_threshold}}
+planner: {{plugin: hybrid}}
+steps:
+  - find_myself: {{at_most_m: {at_most_m}}}
+  - wait: 1
+"""
+
+
 def place_before_tag(places, tag):
     number, x, y, facing = tag
     distance, aside = places.uniform(1.0, 2.5), math.radians(facing + places.uniform(-45, 45))
@@ -131,6 +153,57 @@ def kidnap_at_home(out, home, i, has_markers):
         return {"home": home.name, "run": i, "is_before_tag": i % 2 == 1, "has_markers": has_markers,
                 "is_found": "found_s" in found, "found_s": found.get("found_s"), "driven_m": found["driven_m"],
                 "error_m": summary.get("pose_error", {}).get("last_m"), "touches": summary["collisions"]}
+
+
+def kidnap_in_random_world(out, world, i):
+    width, height = map(float, re.search(r"bounds_m: \[\[0, 0\], \[(\S+), (\S+)\]\]",
+                                         (world / "world.yaml").read_text()).groups())
+    map_file = world / "recognition.cairn"
+    places = random.Random(f"{world.name} {i}")
+    folder = out / f"{world.name}_{i}"
+    folder.mkdir(parents=True, exist_ok=True)
+    for _ in range(TRIED_PLACES):
+        start, angle = (round(places.uniform(0, width), 2), round(places.uniform(0, height), 2)), places.randrange(360)
+        plan = subprocess.run([CAIRN, "plan", map_file, "--from", f"{start[0]},{start[1]}", "--to",
+                               "{},{}".format(*RANDOM_WORLD_START_M), "--radius-m", "0.25", "--json"], capture_output=True)
+        if plan.returncode != 0:
+            continue  # in a wall, or not in the map
+        mission = folder / "mission.yaml"
+        mission.write_text(RANDOM_WORLD.format(root=ROOT, folder=world, x=start[0], y=start[1], angle=angle,
+                                               at_most_m=AT_MOST_M))
+        done = subprocess.run([CAIRN, "run", mission, "--out", folder, "--json", "--localize-in", map_file, "--seed",
+                               str(100 + i)], capture_output=True, text=True)
+        summary = json.loads(done.stdout) if done.stdout.startswith("{") else None
+        if summary is None or "cannot start" in summary["reason"]:
+            continue
+        landmarks = json.loads(subprocess.run([CAIRN, "map", "info", map_file, "--json"], capture_output=True).stdout)
+        found = summary["localisation"]
+        return {"world": world.name, "run": i, "start": start, "landmarks": landmarks["landmarks"],
+                "is_found": "found_s" in found, "driven_m": found["driven_m"],
+                "error_m": summary.get("pose_error", {}).get("last_m"), "touches": summary["collisions"]}
+    raise SystemExit(f"{world}: none of {TRIED_PLACES} places is free in its map")
+
+
+def print_random_worlds_table(rows):
+    print("| landmarks in the map | worlds | put down | found | within 15 m | wrongly believed | driven m, median, most | "
+          "error m, median, most | touches |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|")
+    groups = [("none", lambda n: n == 0), ("1", lambda n: n == 1), ("2 or more", lambda n: n >= 2), ("all", lambda n: True)]
+    for name, is_in in groups:
+        mine = [row for row in rows if is_in(row["landmarks"])]
+        right = [row for row in mine if row["is_found"] and row["error_m"] <= WRONG_M]
+        of = lambda key: (f"{statistics.median(r[key] for r in right):.2f}, {max(r[key] for r in right):.2f}"
+                          if right else "")
+        print(f"| {name} | {len({row['world'] for row in mine})} | {len(mine)} | {len(right)} | "
+              f"{sum(row['driven_m'] <= 15 for row in right)} | {sum(row['is_found'] for row in mine) - len(right)} | "
+              f"{of('driven_m')} | {of('error_m')} | {sum(row['touches'] for row in mine)} |")
+
+
+def kidnap_in_random_worlds(out, runs, worlds):
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        rows = list(pool.map(lambda job: kidnap_in_random_world(out, *job), [(w, i) for w in worlds for i in range(runs)]))
+    (out / "worlds.json").write_text(json.dumps(rows, indent=1))
+    print_random_worlds_table(rows)
 
 
 def print_homes_table(rows):
@@ -178,6 +251,9 @@ def main():
     runs = int(sys.argv[2]) if len(sys.argv) > 2 else 10
     if sys.argv[3:4] == ["--homes"]:
         kidnap_at_homes(out, runs, [pathlib.Path(folder).resolve() for folder in sys.argv[4:]])
+        return
+    if sys.argv[3:4] == ["--worlds"]:
+        kidnap_in_random_worlds(out, runs, [pathlib.Path(folder).resolve() for folder in sys.argv[4:]])
         return
     worlds = sys.argv[3:] or list(WORLDS)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
