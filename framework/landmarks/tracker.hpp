@@ -12,9 +12,9 @@
 #include "framework/landmarks/association/association.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/connector.hpp"
-#include "framework/landmarks/map_move.hpp"
 #include "framework/landmarks/markers/marker_tracker.hpp"
 #include "maps/geometry/contour.hpp"
+#include "maps/geometry/map_move.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {

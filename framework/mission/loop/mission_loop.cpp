@@ -208,15 +208,15 @@ void MissionLoop::move_map() {
     perception_.begin_redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
   const OccupancyGrid* const grid = perception_.redraw_slice(world_.pose);
   if (grid == nullptr) return;
-  world_.grid = grid;
-  world_.coarse = nullptr;
+  world_.exchange_map(*grid, &*perception_.last_move());
   steps_.move_places(*perception_.last_move());
 }
 
 // The robot stands, and nothing comes any more.
 void MissionLoop::redraw_map() {
-  world_.grid = &perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
-  world_.coarse = nullptr;
+  const OccupancyGrid& grid =
+      perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
+  if (&grid != world_.grid) world_.exchange_map(grid, &*perception_.last_move());  // else it was cancelled
   for (const Event& event : perception_.take_moved_landmarks()) publisher_.publish(event);
 }
 

@@ -154,10 +154,9 @@ void MissionLoop::find_itself() {
   const std::shared_ptr<Localizer> localizer = build_localizer(mission_, library_, {T_map_robot, kFoundUncertainty});
   if (options_.localise_in) {
     world_.T_map_start = T_map_local * world_.T_map_start;
-    world_.grid = &perception_.settle(localizer);
-    world_.coarse = nullptr;
+    world_.exchange_map(perception_.settle(localizer), nullptr);
   } else {
-    world_.grid = &perception_.go_on(localizer, build_map(mission_, library_, &check_->before->grid));
+    world_.exchange_map(perception_.go_on(localizer, build_map(mission_, library_, &check_->before->grid)), nullptr);
     world_.coarse = perception_.show_earlier_map();
     world_.map_before = nullptr;
     saving_.leave_map_alone(false);

@@ -25,7 +25,7 @@ void RouteDriver::restart() {
 
 Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourContext& context) {
   goal_.set(goal);
-  if (map_watch_.has_moved(world)) begin_in_new_map(world);
+  if (map_watch_.update(world)) begin_in_new_map(world);
   map_.see(world);
   requests_.tick(world.time_s);
   follower_.see(world, map_);

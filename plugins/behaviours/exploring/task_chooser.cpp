@@ -54,8 +54,14 @@ void TaskChooser::forget_echoes(const WorldView& world) {
   near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
 }
 
-void TaskChooser::forget_passed(const WorldView& world) {
-  passed_ = NearEchoes(world.grid, config_.exploring.passages.passed);
+void TaskChooser::begin_in_new_map(const WorldView& world, const MapMove* move) {
+  if (move == nullptr) {
+    *this = TaskChooser(config_, world);
+  } else {
+    memory_.move(*move, world.grid);
+    passages_.move(*move);
+    passed_ = NearEchoes(world.grid, config_.exploring.passages.passed);
+  }
 }
 
 void TaskChooser::begin_look(const WorldView& world, const Point& opening) {
