@@ -33,7 +33,8 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       library_(library),
       grid_so_far_(options.resume != nullptr ? std::optional(options.resume->grid) : std::nullopt),
       budget_(budget_of(options)),
-      map_left_alone_(options.localise_in ? std::optional(options.localise_in->map->grid) : std::nullopt),
+      map_left_alone_(options.localise_in ? std::make_shared<const OccupancyGrid>(options.localise_in->map->grid)
+                                          : nullptr),
       modules_(build_modules(mission_, library, options.resume, {options.cancel, options.on_wait},
                              start_of(options, mission_.robot)),
                mission_, options.wall_clock),
