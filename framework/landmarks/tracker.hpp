@@ -77,8 +77,11 @@ class LandmarkTracker {
   void merge_beside(LandmarkId id, std::vector<Change>& changes);
   void name_marker_categories();
   void place_marker(const MarkerId& marker, std::vector<Change>& changes);
+  [[nodiscard]] bool is_confirmed(const MarkerTracker::Estimate& estimate) const;
+  [[nodiscard]] bool is_of_this_run(LandmarkId id) const;
   void note_places();
   void move_landmarks(const MapMove& move, std::vector<Change>& changes);
+  void move_marker(const MarkerId& marker, std::vector<Change>& changes);
   void move_routes(const MapMove& move);
 
   LandmarksConfig config_;
