@@ -35,7 +35,7 @@ struct AbiStamp {
 };
 
 // Raised whenever the signature of an interface or an exchanged type changes: sizes need not show that.
-inline constexpr std::uint32_t kContractsVersion = 8;
+inline constexpr std::uint32_t kContractsVersion = 9;
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
 
 namespace abi_detail {

@@ -1,12 +1,14 @@
 // What planners and behaviours may see. Read-only; valid during the call only.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "framework/contracts/localizer.hpp"
 #include "framework/contracts/observation.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/contracts/view/speed_law.hpp"
+#include "maps/geometry/map_move.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
@@ -32,6 +34,11 @@ struct WorldView {
   Pose2 T_map_start{};                // where the mission began; a mission that was resumed, where it began at first
   // How fast the robot may go beside obstacles; none where the robot that will drive is not known.
   std::optional<SpeedLaw> speed_law{};
+  // How often the map was exchanged for another that has places elsewhere: who keeps places of the map from tick to
+  // tick moves or drops them when this number has risen (docs/behaviours.md).
+  std::uint64_t map_moves = 0;
+  // How places moved with the last exchange; null: none of the map before has a place in this one.
+  const MapMove* last_map_move = nullptr;
 };
 
 }  // namespace cairn

@@ -79,8 +79,10 @@ bool LandmarkConnector::join(Round& round, const RouteEnds& pair) const {
   const Landmark& from = *round.graph.find(pair.first);
   const Landmark& to = *round.graph.find(pair.second);
   const auto known = links_.find(pair);
-  const bool is_kept = known != links_.end() && is_current(known->second, from, to, round.changed_m);
-  return store(round, pair, is_kept ? known->second : planned(round, from, to));
+  const bool is_kept = known != links_.end() && is_current(known->second, from, to, round);
+  Link link = is_kept ? known->second : planned(round, from, to);
+  link.has_moved = false;
+  return store(round, pair, link);
 }
 
 // Sets that the wanted pairs have left apart, because the planner found no path for them: the next pairs between them,
@@ -114,13 +116,49 @@ void LandmarkConnector::remove_unwanted(Round& round) const {
 // A path of at most that length stays where its distances from both ends add up to no more; the robot's disc reaches a
 // radius beyond. One with more room beside it is taken though it is a little longer.
 bool LandmarkConnector::is_current(const Link& link, const Landmark& from, const Landmark& to,
-                                   const std::vector<Point>& changed_m) const {
+                                   const Round& round) const {
   if (link.from != *from.access || link.to != *to.access) return false;
+  if (link.has_moved) return is_free(*link.path, round.grid, planned_radius_m());
+  const std::vector<Point>& changed_m = round.changed_m;
   if (!link.is_planned) return changed_m.empty();
   const double within_m = kMaxMarginDetour * link.length_m + 2.0 * (radius_with_margin_m() + planned_on_->cell_m());
   return std::ranges::none_of(changed_m, [&](const Point& at) {
     return (at - link.from.position()).norm() + (at - link.to.position()).norm() <= within_m;
   });
+}
+
+void LandmarkConnector::move(const MapMove& move, const LandmarkGraph& graph,
+                             const std::function<bool(LandmarkId)>& has_moved) {
+  std::map<RouteEnds, Link> links;
+  for (const auto& [pair, link] : links_) {
+    const Landmark* const from = graph.find(pair.first);
+    const Landmark* const to = graph.find(pair.second);
+    const bool is_known = link.path && from != nullptr && from->access && to != nullptr && to->access;
+    if (!is_known || has_moved(pair.first) != has_moved(pair.second)) continue;
+    const std::optional<Link> now = has_moved(pair.first) ? moved(move, link, *from->access, *to->access) : link;
+    if (now) links.emplace(pair, *now).first->second.has_moved = true;
+  }
+  links_ = std::move(links);
+  planned_on_.reset();
+}
+
+// Between the approach poses as they are now; none: it was bent.
+std::optional<LandmarkConnector::Link> LandmarkConnector::moved(const MapMove& move, const Link& link,
+                                                                const Pose2& from, const Pose2& to) {
+  std::vector<Point> points;
+  points.reserve(link.path->size());
+  for (const Pose2& pose : *link.path) points.push_back(pose.position());
+  Link now = link;
+  now.from = from;
+  now.to = to;
+  for (Pose2& pose : *now.path) pose = move.near(pose.position()) * pose;
+  const double off_m = std::max((now.path->front().position() - from.position()).norm(),
+                                (now.path->back().position() - to.position()).norm());
+  if (std::max(off_m, moved_path(move, points).bend_m) > kMaxBend_m) return std::nullopt;
+  now.path->front() = from;
+  now.path->back() = to;
+  now.length_m = length_of(*now.path);
+  return now;
 }
 
 // Open, free, and between the approach poses of its landmarks.

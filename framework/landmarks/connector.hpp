@@ -9,6 +9,10 @@
 // when the grid has changed where a path no longer than the known one could pass; for a planner that finds shortest
 // paths this gives the routes that planning everything again would give. Where the planner finds no path, the known
 // route stays while it leads to the approach poses and is free on the grid.
+//
+// When the map has been exchanged for one that has places elsewhere, all cells have changed, but most routes only lie
+// elsewhere: then a pair is planned again only when its path is not free on the new grid or was bent by more than
+// kMaxBend_m.
 #pragma once
 
 #include <functional>
@@ -22,6 +26,7 @@
 #include "framework/landmarks/association/join_candidates.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/driven_path.hpp"
+#include "maps/geometry/map_move.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
@@ -43,6 +48,8 @@ class LandmarkConnector {
   // returns costs the routes to come and nothing else.
   void connect(LandmarkGraph& graph, const DrivenPath& driven, const WorldView& world, const Plan& plan,
                std::uint64_t seed);
+  // The map has been exchanged, and the graph's landmarks have moved: those that have_moved says.
+  void move(const MapMove& move, const LandmarkGraph& graph, const std::function<bool(LandmarkId)>& has_moved);
 
  private:
   // What a pair was planned with, and the answer.
@@ -52,6 +59,7 @@ class LandmarkConnector {
     std::optional<std::vector<Pose2>> path;  // none: no route is known
     double length_m = 0.0;
     bool is_planned = false;  // the path is the planner's answer
+    bool has_moved = false;   // with the map, since the last connect()
   };
   // What one connect() works on and has done so far.
   struct Round;
@@ -61,8 +69,9 @@ class LandmarkConnector {
   bool store(Round& round, const RouteEnds& pair, const Link& link) const;
   void join_what_is_apart(Round& round, const JoinCandidates& candidates) const;
   void remove_unwanted(Round& round) const;
-  [[nodiscard]] bool is_current(const Link& link, const Landmark& from, const Landmark& to,
-                                const std::vector<Point>& changed_m) const;
+  [[nodiscard]] bool is_current(const Link& link, const Landmark& from, const Landmark& to, const Round& round) const;
+  [[nodiscard]] static std::optional<Link> moved(const MapMove& move, const Link& link, const Pose2& from,
+                                                 const Pose2& to);
   [[nodiscard]] Link planned(const Round& round, const Landmark& from, const Landmark& to) const;
   [[nodiscard]] Link over_cells(const Round& round, const RouteEnds& pair, const std::vector<Cell>& cells) const;
   [[nodiscard]] bool is_good(const Route& route, const Round& round) const;

@@ -97,15 +97,17 @@ std::vector<LandmarkTracker::Change> LandmarkTracker::update(std::span<const Mar
   return changes;
 }
 
+bool LandmarkTracker::is_confirmed(const MarkerTracker::Estimate& estimate) const {
+  return estimate.sightings >= confirm_marker_sightings_ &&
+         (estimate.is_decided || estimate.sightings >= kUndecidedMarker * confirm_marker_sightings_);
+}
+
 void LandmarkTracker::place_marker(const MarkerId& marker, std::vector<Change>& changes) {
   const std::optional<MarkerTracker::Estimate> estimate = markers_.estimate(marker);
   if (!estimate) return;
   const Landmark* const known = graph_.find_marker(marker);
   // A marker of an earlier run stays where it was until this one has confirmed it.
-  const bool is_confirmed =
-      estimate->sightings >= confirm_marker_sightings_ &&
-      (estimate->is_decided || estimate->sightings >= kUndecidedMarker * confirm_marker_sightings_);
-  if (!is_confirmed) return;
+  if (!is_confirmed(*estimate)) return;
   if (known == nullptr) {
     Landmark landmark;
     landmark.marker = marker;

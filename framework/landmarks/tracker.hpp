@@ -12,9 +12,9 @@
 #include "framework/landmarks/association/association.hpp"
 #include "framework/landmarks/config.hpp"
 #include "framework/landmarks/connector.hpp"
-#include "framework/landmarks/map_move.hpp"
 #include "framework/landmarks/markers/marker_tracker.hpp"
 #include "maps/geometry/contour.hpp"
+#include "maps/geometry/map_move.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 
 namespace cairn {
@@ -77,8 +77,11 @@ class LandmarkTracker {
   void merge_beside(LandmarkId id, std::vector<Change>& changes);
   void name_marker_categories();
   void place_marker(const MarkerId& marker, std::vector<Change>& changes);
+  [[nodiscard]] bool is_confirmed(const MarkerTracker::Estimate& estimate) const;
+  [[nodiscard]] bool is_of_this_run(LandmarkId id) const;
   void note_places();
   void move_landmarks(const MapMove& move, std::vector<Change>& changes);
+  void move_marker(const MarkerId& marker, std::vector<Change>& changes);
   void move_routes(const MapMove& move);
 
   LandmarksConfig config_;

@@ -15,6 +15,11 @@ double length_m(const std::vector<Pose2>& trajectory) {
   return length_m;
 }
 
+void join_to(Pose2& end, const std::optional<Pose2>& access) {
+  if (access && (end.position() - access->position()).norm() <= kMaxBend_m)
+    end = {access->x_m, access->y_m, end.theta_rad};
+}
+
 }  // namespace
 
 std::vector<LandmarkTracker::Change> LandmarkTracker::move(const MapMove& move) {
@@ -22,10 +27,11 @@ std::vector<LandmarkTracker::Change> LandmarkTracker::move(const MapMove& move) 
   for (const Pose2& pose : move.after()) driven_.record(pose);
   poses_ = move.poses();
   std::vector<Change> changes;
-  move_routes(move);
   move_landmarks(move, changes);
   markers_.correct(move.after());
-  for (const MarkerId& marker : markers_.markers()) place_marker(marker, changes);
+  for (const MarkerId& marker : markers_.markers()) move_marker(marker, changes);
+  move_routes(move);
+  connector_.move(move, graph_, [this](LandmarkId id) { return is_of_this_run(id); });
   association_.forget_places();
   return changes;
 }
@@ -59,17 +65,38 @@ void LandmarkTracker::move_landmarks(const MapMove& move, std::vector<Change>& c
   }
 }
 
-// They keep their ids. Where one is blocked now, or too far off, it is planned again when landmarks are joined next.
+// The approach pose comes along, as that of every landmark.
+void LandmarkTracker::move_marker(const MarkerId& marker, std::vector<Change>& changes) {
+  const Landmark* const before = graph_.find_marker(marker);
+  const std::optional<Pose2> T_map_before = before ? std::optional(before->T_map_landmark) : std::nullopt;
+  place_marker(marker, changes);
+  if (!T_map_before) return;
+  Landmark& landmark = *graph_.find(graph_.find_marker(marker)->id);
+  if (landmark.access) landmark.access = landmark.T_map_landmark * inverse(*T_map_before) * *landmark.access;
+}
+
+// Whether it was placed, or a marker confirmed, from a pose of this run: it moves with the map.
+bool LandmarkTracker::is_of_this_run(LandmarkId id) const {
+  const Landmark* const landmark = graph_.find(id);
+  if (landmark == nullptr) return false;
+  if (landmark->marker) {
+    const std::optional<MarkerTracker::Estimate> estimate = markers_.estimate(*landmark->marker);
+    return estimate && is_confirmed(*estimate);
+  }
+  const auto placed = placed_.find({id, false});
+  return placed != placed_.end() && placed->second.pose_number.has_value();
+}
+
+// They keep their ids, and end at the approach poses of their landmarks. Where one is blocked now, or was bent, it is
+// planned again when landmarks are joined next.
 void LandmarkTracker::move_routes(const MapMove& move) {
   const std::map<RouteId, Route> routes = graph_.routes();
   for (const auto& [id, route] : routes) {
-    const auto is_of_this_run = [&](LandmarkId end) {
-      const auto placed = placed_.find({end, false});
-      return placed != placed_.end() && placed->second.pose_number.has_value();
-    };
     if (route.trajectory.empty() || !is_of_this_run(route.from) || !is_of_this_run(route.to)) continue;
     Route moved = route;
     for (Pose2& pose : moved.trajectory) pose = move.near(pose.position()) * pose;
+    join_to(moved.trajectory.front(), graph_.find(route.from)->access);
+    join_to(moved.trajectory.back(), graph_.find(route.to)->access);
     moved.trajectory = in_whole_steps(std::move(moved.trajectory));
     const double before_m = length_m(route.trajectory);
     if (before_m > 0.0) moved.cost_m *= length_m(moved.trajectory) / before_m;

@@ -174,6 +174,10 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.integer("hold_out_every", &C::hold_out_every, {0.0, 1e6},
                  "every n-th range reading is held out of the map, so that an experiment can measure how well the "
                  "map predicts it; 0: none");
+  fields.flag(
+      "check_pose_under_way", &C::check_pose_under_way,
+      "a robot whose readings contradict its map checks whether it was carried; false: it believes its place, and "
+      "no copies of the map are kept for that");
   fields.group("autosave", &C::autosave, "the map is saved while the mission runs, for `cairn run --resume`");
   fields.group("history", &C::history, "how much is remembered of a long mission");
   fields.raw("steps", &C::steps, "list of steps",

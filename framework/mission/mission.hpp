@@ -53,6 +53,7 @@ struct MissionConfig {
   std::string record;
   std::string record_mcap;
   int hold_out_every = 0;
+  bool check_pose_under_way = true;
   AutosaveConfig autosave;
   HistoryConfig history;
   ConfigValue steps;

@@ -30,7 +30,7 @@ nlohmann::ordered_json json_of(const PoseCheck& check) {
     looks.push_back({{"driven_m", to_micro(look.driven_m)}, {"believed", guess_json(look.believed)}});
     if (look.elsewhere) looks.back()["elsewhere"] = guess_json(*look.elsewhere);
   }
-  return {{"trust", std::string(name_of(check.verdict()))}, {"looks", std::move(looks)}};
+  return {{"verdict", std::string(name_of(check.verdict()))}, {"looks", std::move(looks)}};
 }
 
 }  // namespace

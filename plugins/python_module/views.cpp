@@ -79,6 +79,16 @@ py::object pose_of(const WorldProxy& it) {
   return tuple_of(it.world.get().pose.T_map_robot);
 }
 
+py::object moved_place(const WorldProxy& it, const std::vector<double>& place) {
+  if (place.size() != 2 && place.size() != 3) throw py::value_error("moved: a place is (x, y) or (x, y, heading)");
+  const MapMove* const move = it.world.get().last_map_move;
+  if (move == nullptr) return py::none();
+  const Pose2 before{place[0], place[1], place.size() == 3 ? place[2] : 0.0};
+  const Pose2 now = move->near(before.position()) * before;
+  if (place.size() == 3) return tuple_of(now);
+  return py::make_tuple(now.x_m, now.y_m);
+}
+
 void add_world(const py::module_& module) {
   py::class_<WorldProxy>(module, "World", "What is known at this tick.", py::module_local())
       .def_property_readonly("pose", pose_of, "As estimated: (x m, y m, heading rad) in the map.")
@@ -96,6 +106,11 @@ void add_world(const py::module_& module) {
       .def_property_readonly(
           "speed_reduction_ratio", [](const WorldProxy& it) { return it.world.get().speed_reduction_ratio; },
           "Share of the last wanted speed that the collision monitor has cut: 0 none, 1 all.")
+      .def_property_readonly(
+          "map_moves", [](const WorldProxy& it) { return it.world.get().map_moves; },
+          "How often the map was exchanged for another that has places elsewhere.")
+      .def("moved", moved_place, py::arg("place"),
+           "Where a place (x, y) or (x, y, heading) of the map before the last exchange lies now; None: nowhere.")
       .def_property_readonly(
           "observation",
           [](const WorldProxy& it) -> py::object {

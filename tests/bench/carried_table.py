@@ -162,10 +162,10 @@ def print_table(rows):
         mine = [row for row in rows if world in ("all", row["world"])]
         stayed = [row for row in mine if not row["carried"]]
         carried = [row for row in mine if row["carried"]]
-        noticed = [row for row in carried if row["start_check"]["trust"] == "carried"]
+        noticed = [row for row in carried if row["start_check"]["verdict"] == "carried"]
         at_m = [row["start_check"]["looks"][-1]["driven_m"] for row in noticed]
         found = [row for row in noticed if row["found"]["trust"] == "tracking"]
-        print(f"| {world} | {len(stayed)} | {sum(row['start_check']['trust'] == 'carried' for row in stayed)} | {len(carried)} | "
+        print(f"| {world} | {len(stayed)} | {sum(row['start_check']['verdict'] == 'carried' for row in stayed)} | {len(carried)} | "
               f"{len(noticed)} | {sum(m <= 5 for m in at_m)} | {statistics.median(at_m):.1f} | {len(found)} | "
               f"{sum(row['error_m'] > WRONG_M for row in found)} | {sum(row['touches'] for row in mine)} |")
     print("\n| looks | number | score: least, median, most | contradicted %: least, median, most |\n|---|---:|---:|---:|")

@@ -145,6 +145,15 @@ TEST_P(BehaviourConformance, OddWorldsAreOutcomesNotExceptions) {
   expect_unharmed("time that goes back", [](BehaviourHost& host) { host.tick_s = -0.05; });
 }
 
+TEST_P(BehaviourConformance, AMapThatIsExchangedIsAnOutcomeNotAnException) {
+  for (const int ticks : {1, 7, 40})
+    for (const bool is_known : {true, false})
+      expect_unharmed("a map that is exchanged after " + std::to_string(ticks) + " ticks", [&](BehaviourHost& host) {
+        host.ticks_to_exchange = ticks;
+        host.knows_map_moves = is_known;
+      });
+}
+
 TEST_P(BehaviourConformance, OddPosesAndTimesAreOutcomesNotExceptions) {
   for (const double far_m : {1e3, 1e6, -1e9, kHuge})
     expect_unharmed("the robot at x " + text_of(far_m), [&](BehaviourHost& host) { host.T_map_robot.x_m = far_m; });

@@ -11,7 +11,7 @@
 namespace cairn::conformance {
 
 BehaviourHost::BehaviourHost()
-    : robot(eight_sonar_robot()), grid(grid_of_room(0.05)), T_map_robot(kRoomStart), room_(grid) {
+    : robot(eight_sonar_robot()), grid(grid_of_room(0.05)), T_map_robot(kRoomStart), room_(grid), exchanged_(grid) {
   Landmark landmark;
   landmark.category = "square";
   landmark.T_map_landmark = {4.5, 4.0, 0.0};
@@ -127,18 +127,32 @@ void BehaviourHost::answer_order(const Status& answer) {
   if (fault_.empty()) fault_ = "answered an order that nobody gave";
 }
 
+// By less than a cell, so that the robot stays where it is in the room.
+void BehaviourHost::exchange_map() {
+  const Pose2 moved = Pose2{0.01, -0.01, 0.002} * T_map_robot;
+  last_map_move_.reset();
+  if (knows_map_moves) last_map_move_.emplace(std::vector<Pose2>{T_map_robot}, std::vector<Pose2>{moved});
+  T_map_robot = moved;
+  ++map_moves_;
+  exchanged_ = grid;
+  is_exchanged_ = !is_exchanged_;
+}
+
 Status BehaviourHost::tick(Behaviour& behaviour) {
   wanted_ = {};
+  if (ticks_to_exchange > 0 && ++ticks_ % ticks_to_exchange == 0) exchange_map();
   Observation seen = seen_in_room(T_map_robot, time_s, robot);
   if (sees_oddly)
     for (const auto& [what, reading] : odd_readings()) seen.ranges.push_back(reading);
-  const WorldView world{grid,
-                        graph,
-                        robot,
-                        {T_map_robot, 1e-4 * Eigen::Matrix3d::Identity()},
-                        time_s,
-                        sees ? &seen : nullptr,
-                        speed_reduction_ratio_};
+  WorldView world{is_exchanged_ ? exchanged_ : grid,
+                  graph,
+                  robot,
+                  {T_map_robot, 1e-4 * Eigen::Matrix3d::Identity()},
+                  time_s,
+                  sees ? &seen : nullptr,
+                  speed_reduction_ratio_};
+  world.map_moves = map_moves_;
+  world.last_map_move = last_map_move_ ? &*last_map_move_ : nullptr;
   const Status status = behaviour.tick(world, *this);
   record_ += text_of(status) + "\n";
   speed_reduction_ratio_ = holds_back && wanted_.v_mps != 0.0 ? 1.0 : 0.0;

@@ -49,9 +49,20 @@ class BehaviourHost : public BehaviourContext {
   bool holds_back = false;         // the stop layer lets nothing through
   bool finds_no_route = false;     // plan() answers no_route
   bool finds_empty_paths = false;  // plan() answers solved with no pose
+  // > 0: the map is exchanged each time after so many ticks: for one that lies a little elsewhere, as last_map_move
+  // says, or as nobody knows.
+  int ticks_to_exchange = 0;
+  bool knows_map_moves = true;
 
  private:
+  void exchange_map();
+
   OccupancyGrid room_;
+  OccupancyGrid exchanged_;  // the grid, in another place of memory
+  bool is_exchanged_ = false;
+  int ticks_ = 0;
+  std::uint64_t map_moves_ = 0;
+  std::optional<MapMove> last_map_move_;
   Twist wanted_;
   double speed_reduction_ratio_ = 0.0;
   std::map<std::string, Place> values_;

@@ -1,11 +1,6 @@
 #include "framework/mission/localisation/carried_watch.hpp"
 
 namespace cairn {
-namespace {
-
-constexpr std::size_t kMaxDoubts = 100;  // that are kept for the report
-
-}  // namespace
 
 // What is drawn while much contradicts the map may be in the wrong place.
 void CarriedWatch::update(const Observation& observation, const Pose2& T_map_robot, const OccupancyGrid& map,
@@ -19,26 +14,21 @@ void CarriedWatch::update(const Observation& observation, const Pose2& T_map_rob
 }
 
 void CarriedWatch::begin_anew() {
+  doubt_.forget_wrong();
   keep_map();
   snapshots_.clear();
 }
 
 void CarriedWatch::doubt_was_wrong() {
   if (cause_ == DoubtCause::readings) doubt_.was_wrong();
-  begin_anew();
+  keep_map();
+  snapshots_.clear();
 }
 
 void CarriedWatch::keep_map() {
   doubt_.reset();
   snapshots_.begin_distance();
   cause_.reset();
-}
-
-void CarriedWatch::record(DoubtRecord doubt) {
-  if (figures_.doubts.size() < kMaxDoubts)
-    figures_.doubts.push_back(std::move(doubt));
-  else
-    ++figures_.doubts_left_out;
 }
 
 void CarriedWatch::record_found(double time_s, double searched_m, const Pose2& T_map_robot) {

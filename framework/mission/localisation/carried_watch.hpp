@@ -22,14 +22,14 @@ class CarriedWatch {
   [[nodiscard]] const std::optional<DoubtCause>& doubt() const { return cause_; }
   // What the doubt is judged by, and what a robot that was carried goes back to. There is one when there is a doubt.
   [[nodiscard]] std::shared_ptr<const MapSnapshot> before() const { return snapshots_.oldest(); }
-  // When the robot has found itself: all begins anew.
+  // When the robot has found itself: all begins anew, and a doubt needs as little as at first.
   void begin_anew();
-  // The same when a check has found nothing against its place; later doubts need more.
+  // When a check has found nothing against its place: the map so far is forgotten, and later doubts need more.
   void doubt_was_wrong();
   // After a check that leaves it open: a doubt needs new evidence, but what the map was stays.
   void keep_map();
 
-  void record(DoubtRecord doubt);
+  void record(DoubtRecord doubt) { figures_.add(std::move(doubt)); }
   void record_carried(const CarriedRecord& carried) { figures_.carried.push_back(carried); }
   void record_found(double time_s, double searched_m, const Pose2& T_map_robot);
   [[nodiscard]] const WatchFigures& figures() const { return figures_; }

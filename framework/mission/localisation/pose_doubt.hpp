@@ -47,6 +47,8 @@ class PoseDoubt {
   [[nodiscard]] double contradicted_ratio() const;  // of the readings that the map says something about
   // The doubt has proved wrong: the next one needs more.
   void was_wrong();
+  // The robot was found: what doubts have proved wrong says nothing of where it is now.
+  void forget_wrong() { doubted_from_ratio_ = rules_.contradicted_ratio; }
   // A doubt needs new evidence.
   void reset();
 

@@ -34,8 +34,10 @@ double compass_within(const RobotModel& robot) {
   return kCompassSlack_rad + robot.compass_error.noise_rad + robot.compass_error.local_bias_rad;
 }
 
-SelfFinder::SelfFinder(const OccupancyGrid& map, const RobotModel& robot)
-    : map_(map), compass_within_rad_(compass_within(robot)), has_compass_(robot.has_compass) {}
+SelfFinder::SelfFinder(std::shared_ptr<const OccupancyGrid> map, const RobotModel& robot)
+    : searched_(std::make_shared<Searched>(Searched{std::move(map)})),
+      compass_within_rad_(compass_within(robot)),
+      has_compass_(robot.has_compass) {}
 
 void SelfFinder::update(const Observation& observation, const Pose2& T_local_robot, const OccupancyGrid& seen,
                         double time_s) {
@@ -49,14 +51,21 @@ void SelfFinder::update(const Observation& observation, const Pose2& T_local_rob
   if (!belief_.drive(T_local_robot) || running_) return;
   std::optional<Pose2> T_map_robot_believed;
   if (T_map_local_believed_) T_map_robot_believed = *T_map_local_believed_ * T_local_robot;
-  const auto search = [this, around = surroundings_of(seen, T_local_robot), turned = heading(T_local_robot),
-                       T_map_robot_believed] {
-    if (!search_) search_.emplace(map_);
-    Answer answer{search_->find(around, turned), std::nullopt};
-    if (T_map_robot_believed) answer.believed = search_->at(around, *T_map_robot_believed);
+  const auto search = [searched = searched_, around = surroundings_of(seen, T_local_robot),
+                       turned = heading(T_local_robot), T_map_robot_believed] {
+    if (!searched->search) searched->search.emplace(*searched->map);
+    Answer answer{searched->search->find(around, turned), std::nullopt};
+    if (T_map_robot_believed) answer.believed = searched->search->at(around, *T_map_robot_believed);
     return answer;
   };
   running_ = Search{std::async(std::launch::async, search), T_local_robot, time_s, belief_.driven_m()};
+}
+
+std::shared_ptr<void> SelfFinder::let_go() {
+  if (!running_) return nullptr;
+  auto search = std::make_shared<std::future<Answer>>(std::move(running_->answer));
+  running_.reset();
+  return search;
 }
 
 void SelfFinder::compare_with(const Pose2& T_map_start, const Pose2& T_local_robot) {

@@ -10,7 +10,9 @@
 #pragma once
 
 #include <future>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "framework/contracts/localizer.hpp"
@@ -41,8 +43,8 @@ inline constexpr StartUncertainty kFoundUncertainty{0.1, radians(2.0)};
 
 class SelfFinder {
  public:
-  // The map must outlive it, and stay as it is.
-  SelfFinder(const OccupancyGrid& map, const RobotModel& robot);
+  // The map must stay as it is.
+  SelfFinder(std::shared_ptr<const OccupancyGrid> map, const RobotModel& robot);
 
   // At every tick. seen: the small map.
   void update(const Observation& observation, const Pose2& T_local_robot, const OccupancyGrid& seen, double time_s);
@@ -59,6 +61,8 @@ class SelfFinder {
   [[nodiscard]] const std::optional<Pose2>& T_map_local() const {
     return by_marker_ ? by_marker_ : belief_.T_map_local();
   }
+  // The search under way, as something whose destructor waits for its end; null: there is none. Its answer is lost.
+  [[nodiscard]] std::shared_ptr<void> let_go();
   // All but found_s and T_map_robot.
   [[nodiscard]] LocalisationFigures figures() const;
 
@@ -79,8 +83,12 @@ class SelfFinder {
   void follow_compass(const Observation& observation, const Pose2& T_local_robot);
   [[nodiscard]] std::optional<KnownHeading> heading(const Pose2& T_local_robot) const;
 
-  const OccupancyGrid& map_;
-  std::optional<PoseSearch> search_;  // made by the first search, in its thread
+  // What searches share, which may go on when the finder is gone.
+  struct Searched {
+    std::shared_ptr<const OccupancyGrid> map;
+    std::optional<PoseSearch> search{};  // made by the first one, in its thread
+  };
+  const std::shared_ptr<Searched> searched_;
   double compass_within_rad_;
   bool has_compass_;
   Point compass_sum_{0.0, 0.0};  // of unit vectors: by how much the map's frame is turned from the robot's own
@@ -95,7 +103,21 @@ class SelfFinder {
   int searches_ = 0;
   std::optional<Pose2> T_map_local_believed_;
   std::vector<PoseLook> looks_;
-  std::optional<Search> running_;  // last: its thread uses search_
+  std::optional<Search> running_;
+};
+
+// Searches that go on though nobody needs their answers.
+class EndingSearches {
+ public:
+  // Null: nothing.
+  void add(std::shared_ptr<void> search) {
+    if (search) searches_.push_back(std::move(search));
+  }
+  // Until all have ended.
+  void wait() { searches_.clear(); }
+
+ private:
+  std::vector<std::shared_ptr<void>> searches_;
 };
 
 }  // namespace cairn

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "maps/relocalisation/pose_check.hpp"
@@ -16,7 +17,7 @@ enum class DoubtCause : std::uint8_t { readings, jump };
   return cause == DoubtCause::jump ? "jump" : "readings";
 }
 
-// A doubt of a mission under way, and what came of it.
+// A doubt of a mission under way, and what came of it; open: the mission ended before.
 struct DoubtRecord {
   double begun_s = 0.0;
   DoubtCause cause = DoubtCause::readings;
@@ -35,6 +36,14 @@ struct WatchFigures {
   std::vector<DoubtRecord> doubts;  // the first of them
   std::size_t doubts_left_out = 0;
   std::vector<CarriedRecord> carried;
+
+  static constexpr std::size_t kMaxDoubts = 100;  // that are kept
+  void add(DoubtRecord doubt) {
+    if (doubts.size() < kMaxDoubts)
+      doubts.push_back(std::move(doubt));
+    else
+      ++doubts_left_out;
+  }
 };
 
 }  // namespace cairn

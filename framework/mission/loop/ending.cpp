@@ -90,6 +90,10 @@ void MissionLoop::finish() {
     add_sentence(ending_.reason, fault.what());
     ending_.outcome = MissionOutcome::module_fault;
   }
+  if (is_check_open() && check_->cause)
+    publisher_.publish(
+        Message{"the mission ends while it is checked whether the robot was carried: its place is in doubt"});
+  ending_searches_.wait();
   save_last();
 }
 
@@ -161,6 +165,7 @@ MissionResult MissionLoop::result() const {
   result.localisation = localisation_;
   result.start_check = start_check_;
   if (watch_) result.watch = watch_->figures();
+  if (is_check_open() && check_->cause) result.watch.add({check_->begun_s, *check_->cause, check_->check});
   result.map_file = saving_.map_file();
   result.clusters = planning_.last_clusters();
   result.poses = perception_.past().poses();

@@ -33,7 +33,8 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       library_(library),
       grid_so_far_(options.resume != nullptr ? std::optional(options.resume->grid) : std::nullopt),
       budget_(budget_of(options)),
-      map_left_alone_(options.localise_in ? std::optional(options.localise_in->map->grid) : std::nullopt),
+      map_left_alone_(options.localise_in ? std::make_shared<const OccupancyGrid>(options.localise_in->map->grid)
+                                          : nullptr),
       modules_(build_modules(mission_, library, options.resume, {options.cancel, options.on_wait},
                              start_of(options, mission_.robot)),
                mission_, options.wall_clock),
@@ -208,15 +209,15 @@ void MissionLoop::move_map() {
     perception_.begin_redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
   const OccupancyGrid* const grid = perception_.redraw_slice(world_.pose);
   if (grid == nullptr) return;
-  world_.grid = grid;
-  world_.coarse = nullptr;
+  world_.exchange_map(*grid, &*perception_.last_move());
   steps_.move_places(*perception_.last_move());
 }
 
 // The robot stands, and nothing comes any more.
 void MissionLoop::redraw_map() {
-  world_.grid = &perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
-  world_.coarse = nullptr;
+  const OccupancyGrid& grid =
+      perception_.redraw(build_map(mission_, library_, grid_so_far_ ? &*grid_so_far_ : nullptr));
+  if (&grid != world_.grid) world_.exchange_map(grid, &*perception_.last_move());  // else it was cancelled
   for (const Event& event : perception_.take_moved_landmarks()) publisher_.publish(event);
 }
 

@@ -111,6 +111,8 @@ class MissionLoop {
   void begin_check_in_doubt();
   [[nodiscard]] bool is_check_open() const;
   [[nodiscard]] bool may_autosave() const;
+  [[nodiscard]] bool is_watched() const;
+  void end_search();
   void look_where_robot_is();
   void check_pose();
   void lose_itself();
@@ -127,7 +129,7 @@ class MissionLoop {
   const ModuleLibrary& library_;
   const std::optional<OccupancyGrid> grid_so_far_;  // what the map of a run that goes on began with
   const Budget budget_;
-  const std::optional<OccupancyGrid> map_left_alone_;
+  const std::shared_ptr<const OccupancyGrid> map_left_alone_;
   std::optional<LocalisationFigures> localisation_;
   StagedModules modules_;
   Perception perception_;
@@ -152,6 +154,7 @@ class MissionLoop {
   std::optional<CarriedWatch> watch_;
   std::optional<OpenCheck> check_;
   std::optional<SelfFinder> finder_;  // while the robot does not know where it is, or is checked
+  EndingSearches ending_searches_;    // of finders that are gone
   Ending ending_;
   FatalEnds fatal_ends_;  // the last: what it shows must be there
 };

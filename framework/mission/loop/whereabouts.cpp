@@ -38,7 +38,7 @@ void MissionLoop::begin_localisation(const LocaliseIn& localise) {
   perception_.leave_alone(*map_left_alone_, localise.map->graph, !localise.T_map_start);
   if (localise.T_map_start) return;
   world_.pose.trust = PoseTrust::lost;
-  finder_.emplace(*map_left_alone_, mission_.robot);
+  finder_.emplace(map_left_alone_, mission_.robot);
 }
 
 // A log knows no other place than its own, and a robot that measures nothing cannot be checked.
@@ -58,7 +58,7 @@ void MissionLoop::begin_check(std::shared_ptr<const MapSnapshot> before, const P
                            world_.time_s, cause});
   perception_.draw_own_map(build_localizer(mission_, library_, {T_map_robot, own_frame(mission_.robot)}),
                            build_map(mission_, library_, nullptr), *check_->before);
-  finder_.emplace(check_->before->grid, mission_.robot);
+  finder_.emplace(std::shared_ptr<const OccupancyGrid>(check_->before, &check_->before->grid), mission_.robot);
   if (!cause) start_check_.emplace();
 }
 
@@ -73,8 +73,14 @@ bool MissionLoop::may_autosave() const {
 
 // By what the ticks before have seen: the own map begins with this observation.
 void MissionLoop::begin_check_in_doubt() {
-  if (finder_ || !watch_ || !watch_->doubt() || !modules_.find_myself) return;
+  if (finder_ || !watch_ || !watch_->doubt()) return;
   begin_check(watch_->before(), world_.pose.T_map_robot, watch_->doubt());
+}
+
+// Copies of the map cost time and memory. A localizer that corrects its past bends the map that a copy would be of, and
+// without the module that finds the robot nothing could be done about a doubt.
+bool MissionLoop::is_watched() const {
+  return watch_ && mission_.config.check_pose_under_way && modules_.find_myself && !perception_.has_history();
 }
 
 void MissionLoop::look_where_robot_is() {
@@ -82,9 +88,15 @@ void MissionLoop::look_where_robot_is() {
     check_pose();
   else if (finder_)
     find_itself();
-  else if (watch_ && !perception_.has_history())
+  else if (is_watched())
     watch_->update(world_.observation, world_.pose.T_map_robot, *world_.grid,
                    [this] { return perception_.known_landmarks(); });
+}
+
+// A search that is under way still ends in its thread: no tick waits for an answer that nobody needs.
+void MissionLoop::end_search() {
+  ending_searches_.add(finder_->let_go());
+  finder_.reset();
 }
 
 // The own map begins where the robot is believed to be: as long as that is right, its frame is the map's.
@@ -100,7 +112,7 @@ void MissionLoop::check_pose() {
   if (check_->cause) watch_->record({check_->begun_s, *check_->cause, check});
   if (check.verdict() == PoseVerdict::carried) return lose_itself();
   perception_.drop_own_map();
-  finder_.reset();
+  end_search();
   // A robot that was carried while it was checked has drawn two places into its own map.
   const bool is_clear = check.looks().back().believed.contradicted_ratio < kClear_ratio;
   check_.reset();
@@ -150,14 +162,13 @@ void MissionLoop::find_itself() {
   const Pose2 T_map_robot = T_map_local * world_.pose.T_map_robot;
   localisation_->found_s = world_.time_s;
   localisation_->T_map_robot = T_map_robot;
-  finder_.reset();
+  end_search();
   const std::shared_ptr<Localizer> localizer = build_localizer(mission_, library_, {T_map_robot, kFoundUncertainty});
   if (options_.localise_in) {
     world_.T_map_start = T_map_local * world_.T_map_start;
-    world_.grid = &perception_.settle(localizer);
-    world_.coarse = nullptr;
+    world_.exchange_map(perception_.settle(localizer), nullptr);
   } else {
-    world_.grid = &perception_.go_on(localizer, build_map(mission_, library_, &check_->before->grid));
+    world_.exchange_map(perception_.go_on(localizer, build_map(mission_, library_, &check_->before->grid)), nullptr);
     world_.coarse = perception_.show_earlier_map();
     world_.map_before = nullptr;
     saving_.leave_map_alone(false);

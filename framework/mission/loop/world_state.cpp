@@ -13,6 +13,8 @@ WorldView WorldState::view() const {
   world.T_map_start = T_map_start;
   world.hierarchies = is_lost() ? nullptr : hierarchies;
   world.speed_law = speed_law;
+  world.map_moves = map_moves;
+  world.last_map_move = last_map_move;
   return world;
 }
 

@@ -4,6 +4,7 @@
 // themselves get values and return them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -30,19 +31,28 @@ struct WorldState {
   const LandmarkGraph no_landmarks{};
   const OccupancyGrid* map_before = nullptr;  // of a robot that was carried, until it has found itself; else null
   Pose2 T_map_before{};                       // where it was believed to be in that map last
+  std::uint64_t map_moves = 0;
+  const MapMove* last_map_move = nullptr;
 
   void observe(Observation seen, const std::optional<GroundTruth>& truth_then) {
     observation = std::move(seen);
     truth = truth_then;
     has_observation = true;
   }
+  // Another map takes the place of the one so far. move: how places move with that; null: they have none in it. It must
+  // outlive the next call.
+  void exchange_map(const OccupancyGrid& map, const MapMove* move) {
+    grid = &map;
+    coarse = nullptr;
+    ++map_moves;
+    last_map_move = move;
+  }
   // The robot was carried: from here on it draws a map of its own.
   void lose(const PoseEstimate& own_pose, const OccupancyGrid& own_grid, const OccupancyGrid& before,
             const Pose2& T_map_robot_before) {
     pose = own_pose;
     pose.trust = PoseTrust::lost;
-    grid = &own_grid;
-    coarse = nullptr;
+    exchange_map(own_grid, nullptr);
     map_before = &before;
     T_map_before = T_map_robot_before;
   }

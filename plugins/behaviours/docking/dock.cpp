@@ -157,6 +157,7 @@ Status Dock::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
     return {StepState::failure, "time is up on the way to " + where(world)};
+  if (const auto exchange = map_watch_.update(world)) begin_in_new_map(exchange->move);
   if (landmark_ == 0) return begin(world, context);
   const Landmark* const landmark = world.graph.find(landmark_);
   if (landmark == nullptr) return {StepState::failure, lost(landmark_, world.graph)};
@@ -169,6 +170,22 @@ Status Dock::tick(const WorldView& world, BehaviourContext& context) {
       break;
   }
   return turn(world, context, *landmark);
+}
+
+// The landmark has its place in the new one; the side of it that was meant turns as the map does there.
+void Dock::begin_in_new_map(const MapMove* move) {
+  if (landmark_ == 0) return;
+  if (move == nullptr) {
+    landmark_ = 0;  // chosen anew
+    mode_ = Mode::drive;
+    driver_.restart();
+    echoes_.forget();
+    return;
+  }
+  if (!approach_pose_.pose) return;
+  const Pose2 T = move->near(approach_pose_.pose->position());
+  approach_pose_.pose = T * *approach_pose_.pose;
+  outward_rad_ = wrap_angle(outward_rad_ + T.theta_rad);
 }
 
 Status Dock::begin(const WorldView& world, BehaviourContext& context) {

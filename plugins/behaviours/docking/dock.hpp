@@ -15,6 +15,7 @@
 #include "plugins/behaviours/docking/axis_echoes.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
 #include "plugins/behaviours/following/progress_checker.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 
 namespace cairn::behaviours {
 
@@ -80,6 +81,7 @@ class Dock : public Behaviour {
   [[nodiscard]] DockAxis axis(const Landmark& landmark) const;
   Status begin(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] bool choose_approach_pose(const WorldView& world, const Landmark& landmark);
+  void begin_in_new_map(const MapMove* move);
   Status drive(const WorldView& world, BehaviourContext& context);
   Status approach(const WorldView& world, BehaviourContext& context, const Landmark& landmark);
   Status go_again(const WorldView& world, const Landmark& landmark);
@@ -105,6 +107,7 @@ class Dock : public Behaviour {
   AxisEchoes echoes_;
   std::optional<double> still_since_s_;
   double gap_m_ = 0.0;  // as last estimated
+  MapWatch map_watch_;
   Twist wanted_;
 };
 

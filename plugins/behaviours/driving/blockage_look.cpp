@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "plugins/behaviours/places/map_watch.hpp"
 #include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
@@ -51,6 +52,13 @@ BlockageLook::Target BlockageLook::target_at(const Point& at) const {
 void BlockageLook::aim_at(const Target& target) {
   target_ = target;
   through_.clear();
+}
+
+void BlockageLook::move(const MapMove& move) {
+  through_.clear();
+  move_place(move, target_.at);
+  move_places(move, looked_at_);
+  move_places(move, stood_beside_goal_);
 }
 
 double BlockageLook::stand_off_m() const {

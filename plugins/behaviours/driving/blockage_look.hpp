@@ -65,6 +65,9 @@ class BlockageLook {
   void remember_stood_at(const Point& at) { stood_beside_goal_.push_back(at); }
   [[nodiscard]] const std::vector<Point>& stood_beside_goal() const { return stood_beside_goal_; }
 
+  // The map has been exchanged: what was seen of the target is forgotten, places move along.
+  void move(const MapMove& move);
+
   // A turn towards the target, sweeping to both sides: readings from one pose repeat themselves.
   [[nodiscard]] Twist turn(const WorldView& world, double looked_s, const motion::TurnSettings& turn) const;
   // Every tick of a look. True when what blocked the robot has gone: echoes come from behind it. What the map has there

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plugins/behaviours/places/map_watch.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
@@ -74,6 +76,11 @@ Recovery RecoveryLadder::next(const Point& robot, const std::optional<Point>& bl
   ++blockages_;
   if (round_ > rounds_ || blockages_ > settings_.max_blockages) return Recovery::give_up;
   return yields_in(round_) ? Recovery::yield : without_yielding();
+}
+
+void RecoveryLadder::move(const MapMove& move) {
+  move_place(move, blocked_at_);
+  if (blocked_by_) move_place(move, *blocked_by_);
 }
 
 Recovery RecoveryLadder::without_yielding() const {

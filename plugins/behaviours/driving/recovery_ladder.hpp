@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "maps/geometry/map_move.hpp"
 #include "plugins/behaviours/following/back_up.hpp"
 #include "plugins/behaviours/local_map/free_space.hpp"
 
@@ -50,6 +51,9 @@ class RecoveryLadder {
   [[nodiscard]] Recovery next(const Point& robot, const std::optional<Point>& blocked_by);
   // What comes instead of yielding where there is nowhere to go, and once the robot has backed up.
   [[nodiscard]] Recovery without_yielding() const;
+
+  // The map has been exchanged.
+  void move(const MapMove& move);
 
   [[nodiscard]] int round() const { return round_; }
   [[nodiscard]] const Point& blocked_at() const { return blocked_at_; }

@@ -1,6 +1,7 @@
 #include "plugins/behaviours/driving/route_driver.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "plugins/behaviours/places/place_name.hpp"
 
@@ -24,11 +25,14 @@ void RouteDriver::restart() {
 }
 
 Status RouteDriver::tick(const Place& goal, const WorldView& world, BehaviourContext& context) {
+  const std::optional<MapExchange> exchange = map_watch_.update(world);
+  if (exchange) begin_in_new_map(exchange->move);
   goal_.set(goal);
-  if (map_watch_.has_moved(world)) begin_in_new_map(world);
   map_.see(world);
   requests_.tick(world.time_s);
   follower_.see(world, map_);
+  if (exchange && exchange->move != nullptr && mode_ != Mode::face && !keeps_route(*exchange->move, world))
+    set_mode(Mode::plan, world.time_s);
   switch (mode_) {
     case Mode::plan:
       return plan(world, context);
@@ -52,10 +56,32 @@ void RouteDriver::set_mode(Mode mode, double time_s) {
   follower_.restart_progress();
 }
 
-// Path and obstacles are where they were in the old one.
-void RouteDriver::begin_in_new_map(const WorldView& world) {
+void RouteDriver::begin_in_new_map(const MapMove* move) {
+  if (move == nullptr) {
+    const MapWatch watch = map_watch_;
+    restart();
+    map_watch_ = watch;
+    return;
+  }
   map_ = LocalMap(settings_.driving.local_map);
-  if (mode_ != Mode::face) set_mode(Mode::plan, world.time_s);
+  follower_.forget_obstacles();
+  goal_.move(*move);
+  look_.move(*move);
+  ladder_.move(*move);
+}
+
+// The rest of it leads where it did: to the goal, or its landmark, as these lie now.
+bool RouteDriver::keeps_route(const MapMove& move, const WorldView& world) {
+  if (mode_ != Mode::travel || follower_.leg() != Leg::route || follower_.optimism()) return false;
+  MovedPath moved = moved_path(move, follower_.path_ahead());
+  if (moved.points.empty() || moved.bend_m > kMaxBend_m) return false;
+  const Landmark* const landmark = world.graph.find(goal_.landmark());
+  std::optional<Pose2> end = goal_.place().pose;
+  if (!end && landmark != nullptr) end = landmark->access;
+  if (end && (moved.points.back() - end->position()).norm() > kMaxBend_m) return false;
+  if (end) moved.points.back() = end->position();
+  follower_.move_route(std::move(moved.points));
+  return !follower_.is_path_blocked(world, map_, std::numeric_limits<double>::infinity());
 }
 
 Status RouteDriver::travel(const WorldView& world, BehaviourContext& context) {

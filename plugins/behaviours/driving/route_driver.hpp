@@ -9,6 +9,9 @@
 // it, close the stored route for a while, and in the end give up with a reason that names the place and what was tried.
 // Where the planner finds no path it tries paths on the local map (LocalPlanning), and goes to look whether what blocks
 // the likeliest one is still there (BlockageLook): a door may have opened.
+//
+// When the map is exchanged for one that has places elsewhere, the planner's route moves along. It is planned again
+// only when it is blocked on the new map or was bent by more than kMaxBend_m; other paths are always.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +46,9 @@ class RouteDriver {
   enum class Mode { plan, travel, back_up, turn, look, face };
 
   void set_mode(Mode mode, double time_s);
-  void begin_in_new_map(const WorldView& world);
+  // The map has been exchanged: what it keeps of places, and whether the route under way is still good.
+  void begin_in_new_map(const MapMove* move);
+  [[nodiscard]] bool keeps_route(const MapMove& move, const WorldView& world);
 
   // route_driver.cpp: along the path, and at its end.
   Status travel(const WorldView& world, BehaviourContext& context);

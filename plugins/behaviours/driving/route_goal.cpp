@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plugins/behaviours/places/map_watch.hpp"
+
 namespace cairn::behaviours {
 
 void RouteGoal::record(const PlanResult& result, const std::vector<Point>& path) {
@@ -10,6 +12,10 @@ void RouteGoal::record(const PlanResult& result, const std::vector<Point>& path)
     return std::ranges::find(place_.landmarks, id) != place_.landmarks.end();
   });
   landmark_ = reached == result.landmarks.rend() ? 0 : *reached;
+}
+
+void RouteGoal::move(const MapMove& move) {
+  if (route_end_) move_place(move, *route_end_);
 }
 
 std::optional<Point> RouteGoal::point(const LandmarkGraph& graph) const {

@@ -15,6 +15,9 @@ class RouteGoal {
   // What a solved plan leads to.
   void record(const PlanResult& result, const std::vector<Point>& path);
 
+  // The map has been exchanged.
+  void move(const MapMove& move);
+
   [[nodiscard]] const Place& place() const { return place_; }
   // The landmark that the route ends at; 0: a place, or no route yet.
   [[nodiscard]] LandmarkId landmark() const { return landmark_; }

@@ -30,7 +30,11 @@ Begun to_known_place(std::unique_ptr<Step> step, const WorldView& world, NamedPl
 }
 
 Begun begun(const Order& order, std::uint64_t seed, const WorldView& world, NamedPlaces& places) {
-  if (order.kind == "goto") return to_known_place(step_of<GoTo, GoToConfig>(order, seed), world, places);
+  if (order.kind == "goto") {
+    auto step = step_of<GoTo, GoToConfig>(order, seed);
+    step->move_with_map();
+    return to_known_place(std::move(step), world, places);
+  }
   if (order.kind == "return_home")
     return to_known_place(step_of<ReturnHome, ReturnHomeConfig>(order, seed), world, places);
   if (order.kind == "explore") return {step_of<Explore, ExploreConfig>(order), ""};

@@ -42,7 +42,20 @@ void GoTo::halt() {
   *this = GoTo(config_, seed_);
 }
 
+// The place that an earlier step gives has moved with the map as the mission keeps it.
+void GoTo::begin_in_new_map(const MapMove& move) {
+  const bool is_given = !config_.input.empty() || moves_with_map_;
+  if (goal_ && goal_->pose && is_given) move_place(move, *goal_->pose);
+  if (config_.at_m && moves_with_map_) {
+    const Pose2 T = move.near(*config_.at_m);
+    config_.at_m = T * *config_.at_m;
+    if (config_.angle_rad) config_.angle_rad = wrap_angle(*config_.angle_rad + T.theta_rad);
+  }
+}
+
 Status GoTo::tick(const WorldView& world, BehaviourContext& context) {
+  if (const auto exchange = map_watch_.update(world); exchange && exchange->move != nullptr)
+    begin_in_new_map(*exchange->move);
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
     return {StepState::failure, "time is up on the way to " + destination(world)};

@@ -9,6 +9,7 @@
 #include "framework/config/fields.hpp"
 #include "framework/contracts/behaviour.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 #include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
@@ -30,12 +31,16 @@ class GoTo : public Behaviour {
 
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
+  // Its point is a place that somebody saw on the map: when the map is exchanged, it moves along. One that a mission's
+  // file gives does not.
+  void move_with_map() { moves_with_map_ = true; }
   // Why the place that it goes to is none on this map; empty: it is one.
   [[nodiscard]] std::string unknown_place(const WorldView& world, NamedPlaces& places) const {
     return find_goal(world, places).unknown;
   }
 
  private:
+  void begin_in_new_map(const MapMove& move);
   Status drive_there(const WorldView& world, BehaviourContext& context);
   Status face(const WorldView& world, MotionRequests& context);
   [[nodiscard]] FoundPlace find_goal(const WorldView& world, NamedPlaces& context) const;
@@ -48,6 +53,8 @@ class GoTo : public Behaviour {
   std::optional<double> begun_s_;
   std::optional<Place> goal_;             // from the first tick on
   std::optional<double> facing_since_s_;  // there, turning to the landmark
+  bool moves_with_map_ = false;
+  MapWatch map_watch_;
 };
 
 }  // namespace cairn::behaviours

@@ -78,6 +78,18 @@ void Search::halt() {
   round_ = 1;
 }
 
+// Where it has been, and where it goes; a place that the mission's file gives is what it is.
+void Search::begin_in_new_map(const MapMove* move) {
+  if (move == nullptr) {
+    been_at_.clear();
+    if (room_) driver_.restart();
+    room_.reset();
+    return;
+  }
+  move_places(*move, been_at_);
+  if (room_) move_place(*move, *room_->pose);
+}
+
 std::string Search::in_round() const {
   return " in round " + std::to_string(round_) + " of " + std::to_string(config_.rounds);
 }
@@ -143,6 +155,7 @@ Status Search::nothing_left(const std::string& found, const std::string& why, co
 }
 
 Status Search::tick(const WorldView& world, BehaviourContext& context) {
+  if (const auto exchange = map_watch_.update(world)) begin_in_new_map(exchange->move);
   const std::vector<LandmarkId> found = world.graph.of_category(category_);
   if (found.size() >= static_cast<std::size_t>(config_.until)) {
     if (!config_.output.empty()) context.output(config_.output, Place{std::nullopt, false, found});

@@ -12,6 +12,7 @@
 #include "framework/contracts/behaviour.hpp"
 #include "plugins/behaviours/driving/route_driver.hpp"
 #include "plugins/behaviours/exploring/explore.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 #include "plugins/behaviours/places/place_name.hpp"
 
 namespace cairn::behaviours {
@@ -44,6 +45,7 @@ class Search : public Behaviour {
   void halt() override;
 
  private:
+  void begin_in_new_map(const MapMove* move);
   [[nodiscard]] std::string in_round() const;
   [[nodiscard]] std::optional<Status> go_to_begin(const WorldView& world, BehaviourContext& context);
   [[nodiscard]] std::optional<Status> between(const WorldView& world, BehaviourContext& context);
@@ -63,6 +65,7 @@ class Search : public Behaviour {
   double to_room_since_s_ = 0.0;
   std::vector<Point> been_at_;  // and what it could not get to, of this round
   RouteDriver driver_;
+  MapWatch map_watch_;
 };
 
 }  // namespace cairn::behaviours

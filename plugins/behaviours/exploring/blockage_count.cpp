@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plugins/behaviours/places/map_watch.hpp"
+
 namespace cairn::behaviours {
 
 void BlockageCount::add(double driven_m) {
@@ -14,6 +16,13 @@ bool BlockageCount::add_failed(const Point& place) {
       std::ranges::any_of(failed_, [&](const Point& p) { return (p - place).norm() < settings_.failed_again_m; });
   failed_.push_back(place);
   return is_again;
+}
+
+void BlockageCount::move(const MapMove* move) {
+  if (move == nullptr)
+    failed_.clear();
+  else
+    move_places(*move, failed_);
 }
 
 }  // namespace cairn::behaviours

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "maps/geometry/map_move.hpp"
 #include "plugins/behaviours/exploring/settings.hpp"
 
 namespace cairn::behaviours {
@@ -16,6 +17,8 @@ class BlockageCount {
   // Whether the robot was blocked on the way to about this place before.
   [[nodiscard]] bool add_failed(const Point& place);
   void restart() { in_a_row_ = 0; }
+  // The map has been exchanged; null: places are worth nothing.
+  void move(const MapMove* move);
 
   [[nodiscard]] bool is_any() const { return in_a_row_ > 0; }
   [[nodiscard]] bool is_too_many() const { return in_a_row_ > settings_.max_in_a_row; }

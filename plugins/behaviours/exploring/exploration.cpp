@@ -38,9 +38,9 @@ Exploration::Exploration(const ExploreConfig& config, const WorldView& world)
       begun_s_(world.time_s) {}
 
 Status Exploration::tick(const WorldView& world, BehaviourContext& context) {
+  if (const auto exchange = map_watch_.update(world)) begin_in_new_map(world, exchange->move);
   if (world.time_s - last_tick_s_ > config_.exploring.motion.away_s) begin_here(world);
   last_tick_s_ = world.time_s;
-  if (map_watch_.has_moved(world)) begin_in_new_map(world);
   has_nothing_left_ = false;
   travelled_.add(world.pose.T_map_robot);
   chooser_.see(world);
@@ -72,9 +72,12 @@ void Exploration::begin_here(const WorldView& world) {
 }
 
 // Where it was going is elsewhere now; it has looked around already.
-void Exploration::begin_in_new_map(const WorldView& world) {
+void Exploration::begin_in_new_map(const WorldView& world, const MapMove* move) {
+  chooser_.begin_in_new_map(world, move);
   begin_here(world);
-  chooser_.forget_passed(world);
+  follower_.forget_obstacles();
+  blockages_.move(move);
+  if (move != nullptr) move_place(*move, announced_);
   set_mode(Mode::travel, world.time_s);
 }
 

@@ -37,7 +37,7 @@ class Exploration {
   Status pass(const WorldView& world, BehaviourContext& context);
 
   void begin_here(const WorldView& world);
-  void begin_in_new_map(const WorldView& world);
+  void begin_in_new_map(const WorldView& world, const MapMove* move);
   void set_mode(Mode mode, double time_s);
   [[nodiscard]] bool is_on_orbit(const WorldView& world) const;
   [[nodiscard]] bool needs_choice(const WorldView& world) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugins/behaviours/local_map/moved_cells.hpp"
+
 namespace cairn::behaviours {
 ExploreProgress::ExploreProgress(const WorldView& world, double near_m, const EstimateSettings& settings)
     : near_m_(near_m), settings_(settings), begun_s_(world.time_s), counted_s_(world.time_s) {}
@@ -33,6 +35,8 @@ double ExploreProgress::passed_ratio(const OccupancyGrid& grid) const {
 }
 
 std::optional<double> ExploreProgress::left_s(const WorldView& world) {
+  if (const auto exchange = map_watch_.update(world))
+    passed_ = exchange->move == nullptr ? CellSet() : moved_cells(*exchange->move, world.grid, passed_);
   pass(world);
   const double done_s = world.time_s - begun_s_;
   if (world.time_s >= counted_s_ + settings_.every_s) {

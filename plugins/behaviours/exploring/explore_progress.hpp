@@ -9,6 +9,7 @@
 #include "framework/contracts/world_view.hpp"
 #include "plugins/behaviours/exploring/settings.hpp"
 #include "plugins/behaviours/local_map/cell_layer.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 
 namespace cairn::behaviours {
 
@@ -32,6 +33,7 @@ class ExploreProgress {
   Point marked_m_{1e9, 1e9};
   CellSet passed_;
   std::optional<double> left_at_count_s_;
+  MapWatch map_watch_;
 };
 
 }  // namespace cairn::behaviours

@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <limits>
 
+#include "plugins/behaviours/local_map/moved_cells.hpp"
 #include "plugins/behaviours/lookouts/frontiers.hpp"
 #include "plugins/behaviours/lookouts/information_gain.hpp"
 #include "plugins/behaviours/lookouts/openings.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 
 namespace cairn::behaviours {
 namespace {
@@ -127,6 +129,16 @@ void offer_orbits(Choice& best, const FreeSpace& space, const Pose2& T_map_robot
 }
 
 }  // namespace
+
+void ExploreMemory::move(const MapMove& move, const OccupancyGrid& grid) {
+  move_places(move, trace);
+  move_places(move, given_up_lookouts);
+  move_places(move, seen_openings);
+  for (SecondLook& look : second_looks) move_place(move, look.about);
+  for (TroubleSpot& spot : troubles) move_place(move, spot.at_m);
+  seen_edges = moved_cells(move, grid, seen_edges);
+  seen_frontiers = moved_cells(move, grid, seen_frontiers);
+}
 
 std::optional<ExploreTask> next_task(const FreeSpace& space, const Pose2& T_map_robot, bool frontiers_wanted,
                                      const ExploreTask* previous, const TaskSettings& settings, ExploreMemory& memory) {

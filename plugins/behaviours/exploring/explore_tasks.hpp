@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "maps/geometry/map_move.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
 #include "plugins/behaviours/exploring/settings.hpp"
 #include "plugins/behaviours/lookouts/look_closer.hpp"
@@ -38,6 +39,9 @@ struct ExploreMemory {
   std::vector<SecondLook> second_looks;
   std::vector<Point> seen_openings;
   std::vector<TroubleSpot> troubles;
+
+  // The map has been exchanged; grid: the new one, of the same cells.
+  void move(const MapMove& move, const OccupancyGrid& grid);
 };
 
 // way_back: along the way that the robot has come, as through a passage.

@@ -13,6 +13,7 @@
 #include "plugins/behaviours/driving/route_driver.hpp"
 #include "plugins/behaviours/exploring/landmark_orbit.hpp"
 #include "plugins/behaviours/following/direct_follower.hpp"
+#include "plugins/behaviours/places/map_watch.hpp"
 
 namespace cairn::behaviours {
 
@@ -59,6 +60,7 @@ class Inspect : public Behaviour {
   int orbits_ = 0;                // done
   double chosen_s_ = -1e9;
   double backing_since_s_ = 0.0;
+  MapWatch map_watch_;
 };
 
 }  // namespace cairn::behaviours

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "plugins/behaviours/places/map_watch.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
@@ -59,6 +61,17 @@ void LandmarkOrbit::see(const WorldView& world) {
   near_echoes_->stand_at(pose.position(), world.robot.radius_m);
   if (trace_.empty() || (trace_.back().position() - pose.position()).norm() >= settings_.trace_apart_m)
     trace_.push_back(pose);
+}
+
+void LandmarkOrbit::begin_in_new_map(const MapMove* move) {
+  near_echoes_.reset();
+  if (move == nullptr) {
+    trace_.clear();
+    begin();
+    return;
+  }
+  move_places(*move, trace_);
+  move_places(*move, avoid_);
 }
 
 void LandmarkOrbit::begin() {

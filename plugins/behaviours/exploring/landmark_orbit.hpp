@@ -40,6 +40,8 @@ class LandmarkOrbit {
 
   // Every tick.
   void see(const WorldView& world);
+  // The map has been exchanged; null: all is to be looked at again.
+  void begin_in_new_map(const MapMove* move);
   // A new orbit: all is to be looked at again.
   void begin();
   // Places of this orbit that the robot cannot get to, or sees nothing from.

@@ -54,8 +54,14 @@ void TaskChooser::forget_echoes(const WorldView& world) {
   near_echoes_ = NearEchoes(world.grid, config_.driving.local_map.echoes.near);
 }
 
-void TaskChooser::forget_passed(const WorldView& world) {
-  passed_ = NearEchoes(world.grid, config_.exploring.passages.passed);
+void TaskChooser::begin_in_new_map(const WorldView& world, const MapMove* move) {
+  if (move == nullptr) {
+    *this = TaskChooser(config_, world);
+  } else {
+    memory_.move(*move, world.grid);
+    passages_.move(*move);
+    passed_ = NearEchoes(world.grid, config_.exploring.passages.passed);
+  }
 }
 
 void TaskChooser::begin_look(const WorldView& world, const Point& opening) {
@@ -75,7 +81,7 @@ std::optional<ExploreTask> TaskChooser::end_look(const ExploreTask& task, const 
   const bool is_wanted = through && !is_enough_known();
   if (!is_wanted) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
-  const FreeSpace usual = space(world);
+  const FreeSpace& usual = space(world);
   if (usual.reaches(usual.cell_at(through->beyond_m))) return std::nullopt;  // as usual, with more room
   return through;
 }
@@ -103,7 +109,7 @@ CellBox TaskChooser::window_of(const Search& search, const WorldView& world) {
   return CellBox{here, here + Cell{1, 1}}.grown(reach);
 }
 
-FreeSpace TaskChooser::space_within(const Search& search, const WorldView& world) const {
+const FreeSpace& TaskChooser::space_within(const Search& search, const WorldView& world) const {
   if (const auto found = spaces_.find({search.within_m, search.clearance_m}); found != spaces_.end())
     return found->second;
   return spaces_.emplace(std::pair{search.within_m, search.clearance_m}, new_space(search, world)).first->second;
@@ -119,7 +125,7 @@ FreeSpace TaskChooser::new_space(const Search& search, const WorldView& world) c
 std::optional<ExploreTask> TaskChooser::choose_within(const Search& search, const WorldView& world,
                                                       const std::optional<ExploreTask>& before) {
   search_ = search;
-  const FreeSpace space = space_within(search, world);
+  const FreeSpace& space = space_within(search, world);
   settings_.window = window_of(search, world);
   const bool frontiers_wanted = !is_enough_known();
   // Each turn of the loop either ends it or gives a part of a task up.
@@ -158,7 +164,7 @@ std::optional<ExploreTask> TaskChooser::choose_far_edge(const WorldView& world,
 }
 
 void TaskChooser::count_known(const WorldView& world) {
-  const FreeSpace space = space_within({kEverywhere_m, config_.exploring.choice.tight_clearance_m}, world);
+  const FreeSpace& space = space_within({kEverywhere_m, config_.exploring.choice.tight_clearance_m}, world);
   const double near_m = config_.look_closer_m > 0.0 ? config_.look_closer_m : config_.exploring.estimate.passed_m;
   const CellLayer<char> reach = reach_of(space, memory_.trace);
   std::vector<Cell> edges = edge_cells(space);
@@ -188,13 +194,13 @@ FreeSpace TaskChooser::space_behind_walls(const WorldView& world, double clearan
 std::optional<ExploreTask> TaskChooser::choose_passage(const WorldView& world) {
   if (is_enough_known()) return std::nullopt;
   search_ = {kEverywhere_m, config_.clearance_m};
-  const FreeSpace usual = space(world);
+  const FreeSpace& usual = space(world);
   const FreeSpace map = space_behind_walls(world, config_.clearance_m);
   const PassageTasks::Explored explored{usual, map, passed_.votes(), memory_.trace, world.robot.radius_m};
   while (std::optional<ExploreTask> task = passages_.next(explored, world.pose.T_map_robot.position())) {
     if (!task->path.empty()) return task;
     search_ = {kEverywhere_m, std::min(config_.clearance_m, config_.exploring.choice.tight_clearance_m)};
-    const FreeSpace tight = space(world);
+    const FreeSpace& tight = space(world);
     task->path = tight.path_to(tight.cell_at(task->lookout));
     if (!task->path.empty()) return task;
     if (std::optional<ExploreTask> on_the_way = back_through_passage(task->lookout, world)) return on_the_way;
@@ -213,7 +219,7 @@ std::vector<Point> TaskChooser::path_as_before(const Point& to, const WorldView&
     least_m = std::min(least_m, clearance_m);
   for (const double clearance_m : {least_m, -world.grid.cell_m()}) {
     search_ = {kEverywhere_m, clearance_m};
-    const FreeSpace least = space(world);
+    const FreeSpace& least = space(world);
     std::vector<Point> path = least.path_to(least.cell_at(to));
     if (!path.empty()) return path;
   }
@@ -222,11 +228,11 @@ std::vector<Point> TaskChooser::path_as_before(const Point& to, const WorldView&
 
 // As the robot came: with little room to the passage, then through it.
 std::optional<ExploreTask> TaskChooser::back_through_passage(const Point& to, const WorldView& world) {
-  const FreeSpace slim = space_within({kEverywhere_m, slim_clearance_m(world.robot)}, world);
+  const FreeSpace& slim = space_within({kEverywhere_m, slim_clearance_m(world.robot)}, world);
   std::optional<ExploreTask> through = passages_.passed_on(slim.path_to(slim.cell_at(to)), world.robot.radius_m);
   if (!through) return std::nullopt;
   search_ = {kEverywhere_m, std::min(config_.clearance_m, config_.exploring.choice.tight_clearance_m)};
-  const FreeSpace tight = space(world);
+  const FreeSpace& tight = space(world);
   through->path = tight.path_to(tight.cell_at(through->lookout));
   if (through->path.empty()) return std::nullopt;
   return through;
@@ -248,13 +254,13 @@ std::optional<ExploreTask> TaskChooser::choose_behind_passages(const WorldView& 
 }
 
 std::vector<NotEntered> TaskChooser::not_entered(const WorldView& world) const {
-  const FreeSpace usual = space_within({kEverywhere_m, config_.clearance_m}, world);
+  const FreeSpace& usual = space_within({kEverywhere_m, config_.clearance_m}, world);
   return passages_.not_entered(
       {usual, space_behind_walls(world, config_.clearance_m), passed_.votes(), memory_.trace, world.robot.radius_m});
 }
 
 bool TaskChooser::is_shut_in(const WorldView& world) const {
-  const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
+  const FreeSpace& space = space_within({kEverywhere_m, config_.clearance_m}, world);
   const auto can_go_back = [&](const Pose2& pose) {
     const Cell centre = space.cell_at(pose.position());
     const int near = config_.exploring.choice.near_trace_cells;
@@ -311,7 +317,7 @@ bool TaskChooser::is_blocked(const WorldView& world, const std::vector<Point>& p
 }
 
 std::optional<Point> TaskChooser::room_out_of_reach(const WorldView& world, const std::vector<Point>& done) const {
-  const FreeSpace space = space_within({kEverywhere_m, config_.clearance_m}, world);
+  const FreeSpace& space = space_within({kEverywhere_m, config_.clearance_m}, world);
   return behaviours::room_out_of_reach(space, world.pose.T_map_robot.position(), done, settings_.openings);
 }
 

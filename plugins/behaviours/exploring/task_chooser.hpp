@@ -19,6 +19,9 @@ class TaskChooser {
 
   // Something else has driven the robot to where it is now.
   void begin_here(const WorldView& world);
+  // Before begin_here(): the map has been exchanged. What is remembered moves along, echoes aside; null: all of it is
+  // forgotten.
+  void begin_in_new_map(const WorldView& world, const MapMove* move);
   // Every tick.
   void see(const WorldView& world);
   void forget_echoes(const WorldView& world);
@@ -65,10 +68,8 @@ class TaskChooser {
   [[nodiscard]] bool is_blocked(const WorldView& world, const std::vector<Point>& path, double along_m) const;
   // Noise can wall the robot in where it just came through: it cannot go back to where it has been.
   [[nodiscard]] bool is_shut_in(const WorldView& world) const;
-  // What echoes have passed: in a map that was drawn anew it lies elsewhere.
-  void forget_passed(const WorldView& world);
-  // Where the robot can go, as for the last choice.
-  [[nodiscard]] FreeSpace space(const WorldView& world) const { return space_within(search_, world); }
+  // Where the robot can go, as for the last choice. Valid until the next tick.
+  [[nodiscard]] const FreeSpace& space(const WorldView& world) const { return space_within(search_, world); }
   // Back along the trace, for some metre. None: the robot has not come so far.
   [[nodiscard]] std::optional<ExploreTask> way_back(const WorldView& world) const;
   // As openings.hpp.
@@ -83,7 +84,7 @@ class TaskChooser {
   // The part of the map that is searched; may reach beyond the map.
   [[nodiscard]] static CellBox window_of(const Search& search, const WorldView& world);
   // Made once a tick: one choice asks for the same part several times.
-  [[nodiscard]] FreeSpace space_within(const Search& search, const WorldView& world) const;
+  [[nodiscard]] const FreeSpace& space_within(const Search& search, const WorldView& world) const;
   [[nodiscard]] FreeSpace new_space(const Search& search, const WorldView& world) const;
   [[nodiscard]] std::optional<ExploreTask> choose_within(const Search& search, const WorldView& world,
                                                          const std::optional<ExploreTask>& before);

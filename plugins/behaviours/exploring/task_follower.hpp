@@ -23,6 +23,8 @@ class TaskFollower {
   // Every tick.
   void see(const WorldView& world, const NearEchoes& near_echoes);
   void take(const std::vector<Point>& path) { path_.take(path); }
+  // The map has been exchanged.
+  void forget_obstacles() { obstacles_.forget(); }
   [[nodiscard]] double along_m() const { return path_.along_m(); }
 
   // The robot does something else from now on: progress is measured anew.

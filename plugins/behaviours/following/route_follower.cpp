@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plugins/common/motion/path.hpp"
+
 namespace cairn::behaviours {
 namespace {
 
@@ -51,6 +53,28 @@ void RouteFollower::take_route(const PlanResult& result, const Place& goal, doub
   segments_ = result.segments;
 }
 
+std::vector<Point> RouteFollower::path_ahead() const {
+  const std::vector<Point>& path = path_.points();
+  if (path.empty()) return {};
+  std::vector<Point> ahead{motion::point_along(path, path_.along_m())};
+  double end_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    end_m += (path[i] - path[i - 1]).norm();
+    if (end_m > path_.along_m()) ahead.push_back(path[i]);
+  }
+  return ahead;
+}
+
+void RouteFollower::move_route(std::vector<Point> ahead) {
+  double behind_m = path_.along_m();
+  while (!segments_.empty() && segments_.front().length_m <= behind_m) {
+    behind_m -= segments_.front().length_m;
+    segments_.erase(segments_.begin());
+  }
+  if (!segments_.empty()) segments_.front().length_m -= behind_m;
+  path_.take(std::move(ahead));
+}
+
 void RouteFollower::restart_progress() {
   unhindered_ = {};
   progress_.restart();
@@ -61,10 +85,9 @@ bool RouteFollower::is_stuck(const WorldView& world) {
 }
 
 // One cell less than the planner's disc, so that the two never disagree about the same map.
-bool RouteFollower::is_path_blocked(const WorldView& world, const LocalMap& map) const {
+bool RouteFollower::is_path_blocked(const WorldView& world, const LocalMap& map, double ahead_m) const {
   const double margin_m = std::max(0.0, world.robot.radius_m - world.grid.cell_m());
-  return leg_ != Leg::escape &&
-         map.is_blocked(world, path_.points(), path_.along_m(), settings_.blocked_ahead_m, margin_m);
+  return leg_ != Leg::escape && map.is_blocked(world, path_.points(), path_.along_m(), ahead_m, margin_m);
 }
 
 ControlResult RouteFollower::step(const WorldView& world, const LocalMap& map, MotionRequests& context) {

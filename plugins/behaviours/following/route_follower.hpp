@@ -44,12 +44,21 @@ class RouteFollower {
   // By the planner; the last point becomes the goal's own where it is in the same cell.
   void take_route(const PlanResult& result, const Place& goal, double cell_m);
 
+  // What of the path is still before the robot.
+  [[nodiscard]] std::vector<Point> path_ahead() const;
+  // The map has been exchanged, and what was ahead on a planner's route lies there now.
+  void move_route(std::vector<Point> ahead);
+  void forget_obstacles() { obstacles_.forget(); }
+
   // The robot does something else from now on: progress is measured anew.
   void restart_progress();
   // Once a tick of following: no progress for the patience.
   [[nodiscard]] bool is_stuck(const WorldView& world);
   // Whether something has turned up on the path ahead.
-  [[nodiscard]] bool is_path_blocked(const WorldView& world, const LocalMap& map) const;
+  [[nodiscard]] bool is_path_blocked(const WorldView& world, const LocalMap& map) const {
+    return is_path_blocked(world, map, settings_.blocked_ahead_m);
+  }
+  [[nodiscard]] bool is_path_blocked(const WorldView& world, const LocalMap& map, double ahead_m) const;
   // Drives on. Slowly where the map has something that the path ignores.
   ControlResult step(const WorldView& world, const LocalMap& map, MotionRequests& context);
   // Until the end of the path, as after this step.

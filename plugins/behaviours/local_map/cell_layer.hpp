@@ -36,11 +36,20 @@ class CellLayer {
   std::vector<T> values_;
 };
 
-// Asked only "is it in?", never iterated, so that its order cannot leak into results.
+// Asked only "is it in?", and never iterated but into another set, so that its order cannot leak into results.
 class CellSet {
  public:
   void insert(Cell cell) { keys_.insert(key_of(cell)); }
   [[nodiscard]] bool contains(Cell cell) const { return keys_.contains(key_of(cell)); }
+  // Each of its cells as another one.
+  template <class Function>
+  [[nodiscard]] CellSet mapped(const Function& to) const {
+    CellSet others;
+    others.keys_.reserve(keys_.size());
+    for (const std::uint64_t key : keys_)
+      others.insert(to(Cell{static_cast<std::int32_t>(key >> 32), static_cast<std::int32_t>(key)}));
+    return others;
+  }
 
  private:
   static std::uint64_t key_of(Cell cell) {

@@ -117,15 +117,19 @@ FreeSpace::FreeSpace(const OccupancyGrid& grid, const RobotSpace& robot, const s
       field_(grid, UnknownPolicy::allow),
       states_(known_states(grid, field_, robot.radius_m, trace)),
       weights_(weights(troubles)),
-      escape_path_(find_escape_path()),
-      travel_(travel_from_escape()) {}
+      escape_path_(find_escape_path()) {}
+
+const TravelField& FreeSpace::travel() const {
+  if (!*travel_) travel_->emplace(travel_from_escape());
+  return **travel_;
+}
 
 bool FreeSpace::reaches(Cell cell) const {
   return cost_m(cell) < kOutOfReach_m;
 }
 
 double FreeSpace::cost_m(Cell cell) const {
-  const double cost = travel_.cost_m(cell);
+  const double cost = travel().cost_m(cell);
   return cost < kOutOfReach_m && weights_.at(cell) < kForbidden ? cost + length_of(escape_path_)
                                                                 : std::numeric_limits<double>::infinity();
 }
@@ -151,7 +155,7 @@ std::vector<Point> FreeSpace::straightened(const std::vector<Cell>& cells) const
     std::size_t next = at + 1;
     for (std::size_t i = at + 2;
          i < std::min(cells.size(), at + static_cast<std::size_t>(robot_.settings.longest_shortcut_cells)); ++i) {
-      const double saved_m = travel_.cost_m(cells[i]) - travel_.cost_m(cells[at]);
+      const double saved_m = travel().cost_m(cells[i]) - travel().cost_m(cells[at]);
       if (line_cost(path.back(), centre_of(cells[i])) <= kShortcutCost * saved_m) next = i;
     }
     at = next;
@@ -163,7 +167,7 @@ std::vector<Point> FreeSpace::straightened(const std::vector<Cell>& cells) const
 std::vector<Point> FreeSpace::path_to(Cell cell) const {
   if (!reaches(cell)) return {};
   std::vector<Point> path = escape_path_;
-  const std::vector<Point> rest = straightened(travel_.path_to(cell));
+  const std::vector<Point> rest = straightened(travel().path_to(cell));
   // The first cell is the one that the escape path ends in.
   path.insert(path.end(), rest.begin() + (rest.size() > 1 ? 1 : 0), rest.end());
   return path;

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/config/fields.hpp"
@@ -75,6 +77,7 @@ class FreeSpace {
   [[nodiscard]] CellLayer<float> weights(const std::vector<TroubleSpot>& troubles) const;
   [[nodiscard]] std::vector<Point> find_escape_path() const;
   [[nodiscard]] TravelField travel_from_escape() const;
+  [[nodiscard]] const TravelField& travel() const;
   [[nodiscard]] double line_cost(const Point& from, const Point& to) const;
   [[nodiscard]] std::vector<Point> straightened(const std::vector<Cell>& cells) const;
 
@@ -84,7 +87,8 @@ class FreeSpace {
   CellLayer<CellState> states_;
   CellLayer<float> weights_;
   std::vector<Point> escape_path_;
-  TravelField travel_;
+  // Made when it is asked for first: what only looks at room and states does without. Shared by copies.
+  std::shared_ptr<std::optional<TravelField>> travel_ = std::make_shared<std::optional<TravelField>>();
 };
 
 // True when an occupied cell's centre lies within radius_m of the next ahead_m of a path. space gives the

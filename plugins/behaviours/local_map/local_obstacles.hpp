@@ -32,6 +32,8 @@ class LocalObstacles {
   // that a live echo has passed through. Of each transducer: its last echo, on its whole arc unless something known
   // explains it.
   void see(const WorldView& world, const NearEchoes& near_echoes, const CellSet& ignored = {});
+  // All of it has its place in another map.
+  void forget() { *this = LocalObstacles(settings_); }
   // In the robot frame, as of the last see().
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
 

@@ -8,9 +8,33 @@
 namespace cairn::behaviours {
 namespace {
 
+// In order. Rays from one place fill most of the box about them: marking cells there takes less than sorting them.
 void once_each(std::vector<Cell>& cells) {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  constexpr std::size_t kSortedUpTo = 64;
+  constexpr std::size_t kMaxBoxCells = 8;  // for each of them
+  CellBox box;
+  if (cells.size() > kSortedUpTo) {
+    box = {cells.front(), cells.front()};
+    for (const Cell c : cells) {
+      box.min = {std::min(box.min.x, c.x), std::min(box.min.y, c.y)};
+      box.max = {std::max(box.max.x, c.x + 1), std::max(box.max.y, c.y + 1)};
+    }
+  }
+  const std::size_t height = static_cast<std::size_t>(box.max.y) - static_cast<std::size_t>(box.min.y);
+  const double box_cells = static_cast<double>(height) * (static_cast<double>(box.max.x) - box.min.x);
+  if (box_cells <= 0.0 || box_cells > static_cast<double>(kMaxBoxCells * cells.size())) {
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return;
+  }
+  std::vector<char> is_in(static_cast<std::size_t>(box_cells), 0);
+  for (const Cell c : cells)
+    is_in[static_cast<std::size_t>(c.x - box.min.x) * height + static_cast<std::size_t>(c.y - box.min.y)] = 1;
+  cells.clear();
+  std::size_t i = 0;
+  for (int x = box.min.x; x < box.max.x; ++x)
+    for (int y = box.min.y; y < box.max.y; ++y)
+      if (is_in[i++] != 0) cells.push_back({x, y});
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ class PassageFinder {
   // Beyond the map's rim everything is unknown.
   [[nodiscard]] double room_m(Cell cell) const {
     const CellBox box = space_.box();
+    if (box.contains(cell)) return space_.distance_m(cell);
     const Cell inside{std::clamp(cell.x, box.min.x, box.max.x - 1), std::clamp(cell.y, box.min.y, box.max.y - 1)};
     return space_.distance_m(inside) + space_.cell_m() * std::hypot(cell.x - inside.x, cell.y - inside.y);
   }
@@ -100,6 +101,11 @@ class PassageFinder {
         }
   }
 
+  // Most of what is in reach has nothing else about it: nothing spreads from there.
+  [[nodiscard]] bool leads_beyond(Cell cell) const {
+    return std::ranges::any_of(kNeighbours, [&](Cell step) { return !reach_.at(cell + step); });
+  }
+
   void spread() {
     close();
     const CellBox box = search_box();
@@ -111,7 +117,7 @@ class PassageFinder {
       for (int x = box.min.x; x < box.max.x; ++x)
         if (reach_.at({x, y})) {
           beyond_.cost_m[{x, y}] = 0.0F;
-          open.push({0.0F, {y, x}});
+          if (leads_beyond({x, y})) open.push({0.0F, {y, x}});
         }
     const double max_m = search_.through_walls ? kThroughWall * settings_.max_wall_m : kInfinite;
     while (!open.empty()) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "framework/landmarks/trajectories.hpp"
@@ -79,6 +81,73 @@ TEST_F(LandmarkConnectorTest, JoinsEachPairBothWays) {
   EXPECT_EQ(graph_.routes().size(), 6U);
   for (const auto& [from, to] : {std::pair(1, 2), std::pair(2, 1), std::pair(1, 3), std::pair(3, 2)})
     EXPECT_NE(graph_.route_between(from, to), nullptr);
+}
+
+// The map moves: all lies 1 m further in x and y, and what is between the first two landmarks aside of that by up to
+// so much.
+class MovedConnectorTest : public LandmarkConnectorTest {
+ protected:
+  void move(double bend_m) {
+    const auto to = [&](double x_m) {
+      const double part = std::clamp((x_m - 1.8) / 2.4, 0.0, 1.0);
+      return Pose2{1.0, 1.0 + bend_m * std::pow(std::sin(std::numbers::pi * part), 2.0), 0.0};
+    };
+    std::vector<Pose2> before;
+    std::vector<Pose2> after;
+    for (double x_m = 0.0; x_m < 8.0; x_m += 0.1) {
+      before.push_back({x_m, 2.0, 0.0});
+      after.push_back(to(x_m) * before.back());
+    }
+    grid_ = OccupancyGrid(kCell_m);
+    fill(grid_, {{0, 0}, {100, 70}}, -1000);
+    for (const auto& [id, known] : graph_.landmarks()) {
+      Landmark& landmark = *graph_.find(id);
+      const Pose2 T = to(known.T_map_landmark.x_m);
+      landmark.T_map_landmark = T * landmark.T_map_landmark;
+      landmark.access = T * *landmark.access;
+      const Cell at = grid_.cell_at(landmark.T_map_landmark.position());
+      fill(grid_, {{at.x - 1, at.y - 1}, {at.x + 1, at.y + 1}}, 1000);
+    }
+    connector_.move({before, after}, graph_, [](LandmarkId) { return true; });
+    T_map_robot_ = Pose2{1.0, 1.0, 0.0} * T_map_robot_;
+  }
+};
+
+TEST_F(MovedConnectorTest, NothingIsPlannedAgainWhereTheMapHasMovedAsAWhole) {
+  connect();
+  const LandmarkGraph before = graph_;
+  move(0.0);
+  EXPECT_EQ(connect(), 0);
+  for (const auto& [id, route] : before.routes()) {
+    const Route* const moved = graph_.find_route(id);
+    ASSERT_NE(moved, nullptr);
+    EXPECT_NEAR((moved->trajectory.front().position() - route.trajectory.front().position() - Point(1.0, 1.0)).norm(),
+                0.0, 2.0 * kMaxRounding_m);
+    EXPECT_NEAR(moved->cost_m, route.cost_m, 0.05);
+  }
+  EXPECT_EQ(connect(), 0) << "and the next time nothing has changed";
+}
+
+TEST_F(MovedConnectorTest, WhatWasBentIsPlannedAgain) {
+  connect();
+  move(0.2);
+  EXPECT_EQ(connect(), 0);
+  graph_ = {};
+  grid_ = OccupancyGrid(kCell_m);
+  fill(grid_, {{0, 0}, {80, 40}}, -1000);
+  for (const double x_m : {1.5, 4.5, 7.0}) add_landmark(x_m, 2.0);
+  T_map_robot_ = {3.0, 1.0, 0.0};
+  connector_ = LandmarkConnector(config_, robot_);
+  connect();
+  move(0.8);
+  EXPECT_EQ(connect(), 2) << "two of three pass there";
+}
+
+TEST_F(MovedConnectorTest, WhatIsBlockedInTheNewMapIsPlannedAgain) {
+  connect();
+  move(0.0);
+  fill(grid_, {{40, 15}, {41, 60}}, 1000);  // between the first two
+  EXPECT_EQ(connect(), 2);
 }
 
 TEST_F(LandmarkConnectorTest, WhereNothingHasChangedNothingIsPlannedAndTheGraphStaysTheSame) {

@@ -5,9 +5,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "framework/landmarks/tracker.hpp"
+#include "tests/framework/landmarks/connecting.hpp"
 
 namespace cairn {
 namespace {
@@ -189,6 +191,46 @@ TEST(MarkerLandmarks, MoveWithTheRobotsPathWhenItIsCorrected) {
   EXPECT_EQ(changes[0].kind, LandmarkTracker::ChangeKind::changed);
   EXPECT_NEAR(tracker.graph().find_by_name("tag 7")->T_map_landmark.x_m, kTruth.x_m + 0.5, 0.01);
   EXPECT_NEAR(tracker.graph().find_by_name("tag 7")->T_map_landmark.y_m, kTruth.y_m + 0.2, 0.01);
+}
+
+TEST(MarkerLandmarks, RoutesToThemMoveWithTheMap) {
+  LandmarkTracker tracker = tracker_of_landmarks();
+  std::vector<Pose2> before;
+  for (const double x_m : {1.0, 1.3, 1.6}) {
+    (void)see(tracker, {x_m, 2.0, 0.0}, kSeven, kTruth);
+    before.push_back({x_m, 2.0, 0.0});
+  }
+  OccupancyGrid grid(0.1);
+  fill(grid, {{0, 0}, {60, 40}}, -1000);
+  Matching matching;
+  Detection detection;
+  detection.category = "square";
+  detection.T_map_landmark = {1.0, 0.8, 0.0};
+  detection.degree = 0.9;
+  detection.templates = {{"square", 0.0, 0.9}};
+  matching.detection = detection;
+  matching.degrees = {{"square", 0.9, 0.0, {1.0, 0.8}}};
+  for (int i = 0; i < 4; ++i) (void)tracker.update(matching);
+  ASSERT_EQ(tracker.graph().landmarks().size(), 2U);
+  const RobotModel robot;
+  PoseEstimate pose;
+  pose.T_map_robot = before.back();
+  GridPlanner planner(grid, robot.radius_m);
+  tracker.connect({grid, tracker.graph(), robot, pose}, std::ref(planner), 1);
+  ASSERT_FALSE(tracker.graph().routes().empty());
+  const Route route = tracker.graph().routes().begin()->second;
+  const std::optional<Pose2> access = tracker.graph().find_by_name("tag 7")->access;
+  std::vector<Pose2> after = before;
+  for (Pose2& moved : after) moved = Pose2{0.5, 0.4, 0.0} * moved;
+  (void)tracker.move({before, after});
+  const Route* const moved = tracker.graph().find_route(route.id);
+  ASSERT_NE(moved, nullptr);
+  for (const auto& [was, is] : {std::pair(route.trajectory.front(), moved->trajectory.front()),
+                                std::pair(route.trajectory.back(), moved->trajectory.back())})
+    EXPECT_NEAR((is.position() - was.position() - Point(0.5, 0.4)).norm(), 0.0, 0.02);
+  ASSERT_TRUE(access);
+  EXPECT_NEAR((tracker.graph().find_by_name("tag 7")->access->position() - access->position() - Point(0.5, 0.4)).norm(),
+              0.0, 0.02);
 }
 
 }  // namespace

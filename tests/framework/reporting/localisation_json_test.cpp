@@ -19,7 +19,7 @@ TEST(LocalisationJson, ADoubtHasItsCauseAndWhatCameOfIt) {
   ASSERT_EQ(json.size(), 1U);
   EXPECT_EQ(json[0]["begun_s"], 12.5);
   EXPECT_EQ(json[0]["cause"], "jump");
-  EXPECT_EQ(json[0]["trust"], "stayed");
+  EXPECT_EQ(json[0]["verdict"], "stayed");
   EXPECT_EQ(json[0]["looks"][0]["believed"]["score"], 0.9);
 }
 

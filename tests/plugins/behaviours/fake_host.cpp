@@ -33,7 +33,29 @@ FakeHost::FakeHost(const std::string& drawing, const FakeHostSettings& settings)
   reveal();
 }
 
-bool FakeHost::is_solid(const Point& p) const {
+void FakeHost::move_map(const Point& by_m) {
+  OccupancyGrid moved(settings_.cell_m);
+  const CellBox box = grid.bounds();
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      if (grid.state({x, y}) != CellState::unknown)
+        moved.set_log_odds(moved.cell_at(grid.centre_of({x, y}) + by_m), grid.log_odds({x, y}));
+  grid = std::move(moved);
+  drawn_from_m_ += by_m;
+  const Pose2 T{by_m.x(), by_m.y(), 0.0};
+  last_map_move.emplace(std::vector<Pose2>{T_map_robot}, std::vector<Pose2>{T * T_map_robot});
+  ++map_moves;
+  T_map_robot = T * T_map_robot;
+  T_map_start = T * T_map_start;
+  for (const auto& [id, known] : graph.landmarks()) {
+    Landmark& landmark = *graph.find(id);
+    landmark.T_map_landmark = T * landmark.T_map_landmark;
+    if (landmark.access) landmark.access = T * *landmark.access;
+  }
+}
+
+bool FakeHost::is_solid(const Point& p_map) const {
+  const Point p = p_map - drawn_from_m_;
   const int c = static_cast<int>(std::floor(p.x() / settings_.character_m));
   const int up = static_cast<int>(std::floor(p.y() / settings_.character_m));
   const int r = static_cast<int>(rows_.size()) - 1 - up;
@@ -73,7 +95,7 @@ double FakeHost::distance_to_solid_m() const {
     for (std::size_t c = 0; c < rows_[r].size(); ++c) {
       if (rows_[r][c] != '#') continue;
       const Point low{static_cast<double>(c) * side, static_cast<double>(rows_.size() - 1 - r) * side};
-      const Point p = T_map_robot.position();
+      const Point p = T_map_robot.position() - drawn_from_m_;
       const double dx = std::max({low.x() - p.x(), 0.0, p.x() - low.x() - side});
       const double dy = std::max({low.y() - p.y(), 0.0, p.y() - low.y() - side});
       nearest = std::min(nearest, std::hypot(dx, dy));
@@ -126,6 +148,8 @@ WorldView FakeHost::view(const Observation* seen) const {
   world.T_map_start = T_map_start;
   world.pose.trust = trust;
   world.hierarchies = hierarchies;
+  world.map_moves = map_moves;
+  world.last_map_move = last_map_move ? &*last_map_move : nullptr;
   return world;
 }
 

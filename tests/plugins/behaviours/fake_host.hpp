@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,10 @@ class FakeHost : public BehaviourContext {
   // Ticks until it says how long it still takes; none when it ends or the time is up before.
   std::optional<double> first_left_s(Behaviour& behaviour, double at_most_s);
 
-  [[nodiscard]] bool is_solid(const Point& p) const;
+  // The map is drawn anew, with all places elsewhere by so much, in whole cells; the robot and landmarks come along.
+  void move_map(const Point& by_m);
+
+  [[nodiscard]] bool is_solid(const Point& p_map) const;
   // From the robot's centre to the nearest solid square.
   [[nodiscard]] double distance_to_solid_m() const;
   // The grid and the driven path, for failures.
@@ -89,6 +93,8 @@ class FakeHost : public BehaviourContext {
   // What the sensors see in a tick; nothing by default.
   std::function<Observation(const FakeHost&)> observe;
   PoseTrust trust = PoseTrust::tracking;
+  std::uint64_t map_moves = 0;
+  std::optional<MapMove> last_map_move;
   double time_s = 0.0;
   double speed_reduction_ratio = 0.0;
   // What the collision monitor lets through; all of it by default.
@@ -121,6 +127,7 @@ class FakeHost : public BehaviourContext {
 
   FakeHostSettings settings_;
   std::vector<std::string> rows_;  // from the top
+  Point drawn_from_m_{0.0, 0.0};   // the drawing's lower left corner
   Twist wanted_;
   int ticks_ = 0;
 };

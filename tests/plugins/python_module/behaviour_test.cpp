@@ -45,6 +45,24 @@ TEST(PythonBehaviour, SeesTheWorldAndDrives) {
   EXPECT_THAT(host.record(), HasSubstr("so far"));
 }
 
+TEST(PythonBehaviour, SeesThatTheMapHasMovedAndWherePlacesLieNow) {
+  const auto behaviour = behaviour_of(
+      ticking("    if self.ticks == 1:\n"
+              "      assert world.map_moves == 0 and world.moved((1, 1)) is None\n"
+              "      return 'running', 'before'\n"
+              "    assert world.map_moves == self.ticks // 2\n"
+              "    (x_m, y_m), here = world.moved((1, 1)), world.moved((1, 1, 0))\n"
+              "    assert 0.0 < abs(x_m - 1) < 0.05 and here[:2] == (x_m, y_m) and abs(here[2] - 0.002) < 1e-9\n"
+              "    return 'running', 'after'\n"));
+  BehaviourHost host;
+  host.ticks_to_exchange = 2;
+  host.T_map_robot = {1.0, 1.0, 0.0};
+  EXPECT_EQ(host.tick(*behaviour).reason, "before");
+  EXPECT_EQ(host.tick(*behaviour).reason, "after");
+  EXPECT_EQ(host.tick(*behaviour).reason, "after");
+  EXPECT_THAT(error_of_tick("    world.moved((1,))\n    return 'running', ''\n"), HasSubstr("(x, y, heading)"));
+}
+
 TEST(PythonBehaviour, PlansAndFollowsAPathToALandmark) {
   const auto behaviour =
       behaviour_of(ticking("    if self.ticks == 1:\n"

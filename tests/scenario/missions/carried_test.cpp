@@ -44,7 +44,7 @@ TEST(Carried, ARobotThatGoesOnWhereItWasLeftIsBelieved) {
   const Finished finished = run_office(folder, {"--resume", map_left().string()});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
   const auto summary = nlohmann::json::parse(finished.out);
-  EXPECT_EQ(summary["start_check"]["trust"], "stayed");
+  EXPECT_EQ(summary["start_check"]["verdict"], "stayed");
   EXPECT_FALSE(summary.contains("localisation"));
   EXPECT_LT(summary["pose_error"]["worst_m"].get<double>(), 0.2);
   EXPECT_THAT(events_of(folder), testing::Not(testing::HasSubstr("carried")));
@@ -59,7 +59,7 @@ TEST(Carried, ARobotThatWasCarriedNoticesItAndFindsItself) {
   const Finished finished = run_office(folder, {"--resume", (folder / "moved.cairn").string()});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
   const auto summary = nlohmann::json::parse(finished.out);
-  EXPECT_EQ(summary["start_check"]["trust"], "carried");
+  EXPECT_EQ(summary["start_check"]["verdict"], "carried");
   EXPECT_LT(summary["start_check"]["looks"].back()["driven_m"].get<double>(), 5.0);
   EXPECT_EQ(summary["localisation"]["trust"], "tracking");
   EXPECT_LT(summary["pose_error"]["last_m"].get<double>(), 0.2);
@@ -102,7 +102,7 @@ TEST(Carried, TheMapIsLeftAloneUntilTheRobotHasFoundItself) {
   const Finished finished = run_office(
       folder, {"--resume", (folder / "moved.cairn").string(), "--set", "at_most_s=" + std::to_string(begin_s + 30.0)});
   const auto summary = nlohmann::json::parse(finished.out);
-  ASSERT_EQ(summary["start_check"]["trust"], "carried");
+  ASSERT_EQ(summary["start_check"]["verdict"], "carried");
   ASSERT_EQ(summary["localisation"]["trust"], "lost");
   EXPECT_FALSE(std::filesystem::exists(folder / "office.cairn")) << "the map of the mission's end";
   EXPECT_EQ(text_of_file(folder / "moved.cairn"), before);
@@ -135,16 +135,30 @@ TEST(CarriedUnderWay, TheRobotNoticesItFindsItselfAndItsMapHasNoWallsTwice) {
                           "sensor.faults=[{at_s: " + carried_s + ", kidnap: {to_m: [4.9, 1.0], angle_deg: 100}}]"});
   ASSERT_EQ(finished.exit_status, 0) << finished.err;
   const auto summary = nlohmann::json::parse(finished.out);
-  EXPECT_EQ(summary["start_check"]["trust"], "stayed");
+  EXPECT_EQ(summary["start_check"]["verdict"], "stayed");
   ASSERT_EQ(summary["carried"].size(), 1U) << finished.out;
   EXPECT_TRUE(summary["carried"][0].contains("found_s"));
-  EXPECT_EQ(summary["doubts"].back()["trust"], "carried");
+  EXPECT_EQ(summary["doubts"].back()["verdict"], "carried");
   EXPECT_EQ(summary["localisation"]["trust"], "tracking");
   EXPECT_LT(summary["pose_error"]["last_m"].get<double>(), 0.2);
   EXPECT_THAT(events_of(folder), testing::HasSubstr("not where it was believed to be"));
   const SavedMap after = load_map(folder / "office.cairn");
   EXPECT_LT(walls_in_the_open(after.grid, before.grid), 8);
   EXPECT_EQ(after.graph.landmarks().size(), before.graph.landmarks().size());
+}
+
+TEST(CarriedUnderWay, IsNotWatchedWhereTheMissionSaysSo) {
+  const auto folder = fresh_folder("carried_not_watched");
+  const double carried_s = load_map(map_left()).progress->time_s + 60.0;
+  const std::string fault =
+      "sensor.faults=[{at_s: " + std::to_string(carried_s) + ", kidnap: {to_m: [4.9, 1.0], angle_deg: 100}}]";
+  const Finished finished =
+      run_office(folder, {"--resume", map_left().string(), "--set", fault, "--set", "check_pose_under_way=false",
+                          "--set", "at_most_s=" + std::to_string(carried_s + 60.0)});
+  const auto summary = nlohmann::json::parse(finished.out);
+  EXPECT_EQ(summary["start_check"]["verdict"], "stayed") << "that is another check";
+  EXPECT_FALSE(summary.contains("doubts")) << finished.out;
+  EXPECT_FALSE(summary.contains("carried"));
 }
 
 // It has been on its way for long: what it knew before is not lost with the place.
@@ -156,6 +170,13 @@ TEST(CarriedUnderWay, ARunThatEndsWhileItsRobotIsLostSavesTheMapFromBefore) {
       "sensor.faults=[{at_s: " + std::to_string(carried_s) + ", kidnap: {to_m: [4.9, 1.0], angle_deg: 100}}]";
   const auto noticed = nlohmann::json::parse(run_office(folder, {"--resume", map_left().string(), "--set", fault}).out);
   ASSERT_EQ(noticed["carried"].size(), 1U);
+  const double begun_s = noticed["doubts"].back()["begun_s"].get<double>();
+  const Finished open = run_office(
+      fresh_folder("carried_under_way_open"),
+      {"--resume", map_left().string(), "--set", fault, "--set", "at_most_s=" + std::to_string(begun_s + 1.0)});
+  const auto doubt = nlohmann::json::parse(open.out)["doubts"].back();
+  EXPECT_EQ(doubt["begun_s"], begun_s);
+  EXPECT_EQ(doubt["verdict"], "open") << "the run has ended before";
   const double end_s = noticed["carried"][0]["noticed_s"].get<double>() + 3.0;
   const Finished finished = run_office(
       folder, {"--resume", map_left().string(), "--set", fault, "--set", "at_most_s=" + std::to_string(end_s)});

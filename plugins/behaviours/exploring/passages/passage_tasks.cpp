@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "plugins/behaviours/places/map_watch.hpp"
 #include "plugins/common/motion/path.hpp"
 
 namespace cairn::behaviours {
@@ -196,6 +197,18 @@ bool PassageTasks::retry() {
   }
   forget_unreachable();
   return is_any;
+}
+
+void PassageTasks::move(const MapMove& move) {
+  for (Tried& tried : tried_) {
+    move_place(move, tried.at_m);
+    for (std::optional<HeardOpening>* const heard : {&tried.heard, &tried.heard_before}) {
+      if (!*heard) continue;
+      const Pose2 T = move.near((*heard)->middle_m);  // one for both: its line keeps its direction
+      (*heard)->from_m = T * (*heard)->from_m;
+      (*heard)->middle_m = T * (*heard)->middle_m;
+    }
+  }
 }
 
 std::vector<NotEntered> PassageTasks::not_entered(const Explored& explored) const {

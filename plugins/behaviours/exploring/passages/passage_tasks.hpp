@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "maps/geometry/map_move.hpp"
 #include "plugins/behaviours/exploring/explore_tasks.hpp"
 #include "plugins/behaviours/lookouts/passages.hpp"
 
@@ -59,6 +60,8 @@ class PassageTasks {
   [[nodiscard]] std::optional<ExploreTask> passed_on(const std::vector<Point>& path, double radius_m) const;
   // False when there is none to try once more; what is tried once more is looked at again, too.
   [[nodiscard]] bool retry();
+  // The map has been exchanged.
+  void move(const MapMove& move);
   // Given up or never tried.
   [[nodiscard]] std::vector<NotEntered> not_entered(const Explored& explored) const;
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace cairn {
 namespace {
 
@@ -55,6 +57,39 @@ TEST(CarriedWatch, NothingIsKeptOfWhatIsDrawnWhileMuchContradictsTheMap) {
   watch.begin_anew();
   EXPECT_FALSE(watch.doubt());
   EXPECT_EQ(watch.before(), nullptr);
+}
+
+// Metres of echoes in the open until there is a doubt.
+double metres_to_doubt(CarriedWatch& watch, const OccupancyGrid& map, double contradicted_ratio) {
+  Observation seen;
+  RangeReading echo;
+  echo.max_m = 5.0;
+  echo.range_m = 1.0;  // in the open
+  RangeReading known = echo;
+  known.T_robot_sensor.theta_rad = radians(90.0);
+  known.range_m = 2.0;  // of the strip's edge
+  const int against = static_cast<int>(std::lround(20.0 * contradicted_ratio));
+  for (int i = 0; i < 20; ++i) seen.ranges.push_back(i < against ? echo : known);
+  for (double x_m = 0.0; x_m < 12.0; x_m += 0.05) {
+    seen.T_odom_robot = {x_m, 0.0, 0.0};
+    watch.update(seen, seen.T_odom_robot, map, no_landmarks);
+    if (watch.doubt()) return x_m;
+  }
+  return 1e9;
+}
+
+TEST(CarriedWatch, ADoubtNeedsNoMoreThanAtFirstWhenTheRobotWasFoundAgain) {
+  OccupancyGrid map = free_strip();
+  for (int x = -40; x < 800; ++x) map.set_log_odds({x, 40}, log_odds_of(0.95));
+  RobotModel robot;
+  robot.has_compass = false;
+  CarriedWatch watch(robot);
+  constexpr double kRatio = 0.2;
+  EXPECT_LT(metres_to_doubt(watch, map, kRatio), 12.0);
+  while (metres_to_doubt(watch, map, kRatio) < 12.0) watch.doubt_was_wrong();
+  EXPECT_GT(metres_to_doubt(watch, map, kRatio), 12.0) << "doubts that were wrong raise what the next one needs";
+  watch.begin_anew();
+  EXPECT_LT(metres_to_doubt(watch, map, kRatio), 12.0);
 }
 
 TEST(CarriedWatch, ForgottenDoubtsAreCounted) {

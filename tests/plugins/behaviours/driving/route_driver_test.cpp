@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "tests/plugins/behaviours/fake_host.hpp"
 
 namespace cairn::behaviours {
@@ -41,17 +43,11 @@ const Place kOtherRoom{Pose2{3.3, 0.5, 0.0}, false, {}};
 // A behaviour that only drives there.
 class Driving : public Behaviour {
  public:
-  explicit Driving(const RouteSettings& settings, const Place& goal) : driver(settings, 1), goal_(goal) {}
-  Status tick(const WorldView& world, BehaviourContext& context) override {
-    if (!moved) return driver.tick(goal_, world, context);
-    return driver.tick(goal_, {*moved, world.graph, world.robot, world.pose, world.time_s, world.observation}, context);
-  }
+  explicit Driving(const RouteSettings& settings, Place place) : driver(settings, 1), goal(std::move(place)) {}
+  Status tick(const WorldView& world, BehaviourContext& context) override { return driver.tick(goal, world, context); }
   void halt() override { driver.restart(); }
   RouteDriver driver;
-  std::optional<OccupancyGrid> moved;  // the map that it sees instead
-
- private:
-  Place goal_;
+  Place goal;
 };
 
 void close_door(FakeHost& host, bool lower, bool closed = true) {
@@ -84,17 +80,73 @@ TEST(RouteDriver, TakesTheOtherDoorWhenOneCloses) {
   EXPECT_GE(host.nearest_solid_m, host.robot.radius_m) << host.picture();
 }
 
-TEST(RouteDriver, PlansAgainWhenTheMapHasBeenDrawnAnew) {
+// Drives, then the map moves; how often the planner is asked until the robot is there. goal: moves along by so much.
+std::size_t plans_after(const std::function<void(FakeHost&)>& move, const Point& goal_by_m) {
   FakeHost host(kTwoDoors, kKnown);
   Driving driving({}, kOtherRoom);
   host.run(driving, 3.0);
   const std::size_t planned = host.planned.size();
-  host.run(driving, 3.0);
-  EXPECT_EQ(host.planned.size(), planned);
-  driving.moved = host.grid;
-  host.run(driving, 5.0);
-  EXPECT_GT(host.planned.size(), planned);
-  EXPECT_EQ(host.run(driving, 120.0).state, StepState::success);
+  move(host);
+  driving.goal.pose->x_m += goal_by_m.x();
+  driving.goal.pose->y_m += goal_by_m.y();
+  EXPECT_EQ(host.run(driving, 120.0).state, StepState::success) << host.picture();
+  EXPECT_LT((host.T_map_robot.position() - driving.goal.pose->position()).norm(), 0.15);
+  EXPECT_GE(host.nearest_solid_m, host.robot.radius_m);
+  return host.planned.size() - planned;
+}
+
+TEST(RouteDriver, ARouteMovesWithTheMapAndIsNotPlannedAgain) {
+  EXPECT_EQ(plans_after([](FakeHost&) {}, {0.0, 0.0}), 0U);
+  EXPECT_EQ(plans_after([](FakeHost& host) { host.move_map({1.5, -2.0}); }, {1.5, -2.0}), 0U);
+}
+
+TEST(RouteDriver, ARouteThatIsBlockedOnTheNewMapIsPlannedAgain) {
+  const auto move = [](FakeHost& host) {
+    host.move_map({1.5, -2.0});
+    // Beyond what it looks at while it drives.
+    for (double y_m = 0.35; y_m < 0.9; y_m += 0.05)
+      for (const double x_m : {2.0, 2.05}) host.grid.set_log_odds(host.grid.cell_at({x_m + 1.5, y_m - 2.0}), 600);
+  };
+  EXPECT_GT(plans_after(move, {1.5, -2.0}), 0U);
+}
+
+// The map bends: its right end goes up by so much, as a parabola.
+std::size_t plans_after_bend(double end_m) {
+  return plans_after(
+      [&](FakeHost& host) {
+        const Pose2 robot = host.T_map_robot;
+        const auto up_m = [&](double x_m) {
+          const double part = std::max(0.0, (x_m - robot.x_m) / (3.3 - robot.x_m));
+          return end_m * part * part;
+        };
+        std::vector<Pose2> before;
+        std::vector<Pose2> after;
+        for (double x_m = robot.x_m; x_m < 4.0; x_m += 0.1) {
+          before.push_back({x_m, robot.y_m, 0.0});
+          after.push_back({x_m, robot.y_m + up_m(x_m), 0.0});
+        }
+        host.move_map({0.0, 0.0});
+        host.last_map_move.emplace(before, after);
+      },
+      {0.0, end_m});
+}
+
+TEST(RouteDriver, ARouteIsPlannedAgainWhenItWasBentByMoreThanALittle) {
+  EXPECT_EQ(plans_after_bend(0.15), 0U);
+  EXPECT_GT(plans_after_bend(1.4), 0U) << "at its ends a parabola is off by a sixth of that";
+}
+
+TEST(RouteDriver, ARouteIsPlannedAgainWhenItsGoalHasNotMovedAlong) {
+  EXPECT_EQ(plans_after([](FakeHost& host) { host.move_map({0.1, 0.0}); }, {0.0, 0.0}), 0U);
+  EXPECT_GT(plans_after([](FakeHost& host) { host.move_map({0.3, 0.0}); }, {0.0, 0.0}), 0U);
+}
+
+TEST(RouteDriver, ARouteIsPlannedAgainWhenNobodyKnowsHowTheMapHasMoved) {
+  const auto move = [](FakeHost& host) {
+    host.move_map({1.5, -2.0});
+    host.last_map_move.reset();
+  };
+  EXPECT_GT(plans_after(move, {1.5, -2.0}), 0U);
 }
 
 TEST(RouteDriver, LooksWhetherADoorHasOpenedAgain) {

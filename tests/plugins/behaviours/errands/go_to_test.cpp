@@ -52,10 +52,32 @@ GoToConfig config_for(const std::string& landmark) {
   return config;
 }
 
+// Drives on after the map has moved by 1 m; where it ends, less that.
+Point end_when_map_moves(GoTo& go_to) {
+  FakeHost host(kRoom, kKnown);
+  host.values["there"] = Place{Pose2{2.4, 0.4, 0.0}, false, {}};
+  EXPECT_EQ(host.run(go_to, 2.0).state, StepState::running);
+  host.move_map({1.0, 0.0});
+  (void)host.run(go_to, 120.0);
+  return host.T_map_robot.position() - Point(1.0, 0.0);
+}
+
 GoToConfig config_at(const Point& at_m) {
   GoToConfig config;
   config.at_m = at_m;
   return config;
+}
+
+TEST(GoTo, APlaceThatWasGivenMovesWithTheMap) {
+  GoToConfig by_input;
+  by_input.input = "there";
+  GoTo given(by_input, 1);
+  EXPECT_LT((end_when_map_moves(given) - Point(2.4, 0.4)).norm(), 0.15);
+  GoTo ordered(config_at({2.4, 0.4}), 1);
+  ordered.move_with_map();
+  EXPECT_LT((end_when_map_moves(ordered) - Point(2.4, 0.4)).norm(), 0.15);
+  GoTo written(config_at({2.4, 0.4}), 1);
+  EXPECT_LT((end_when_map_moves(written) - Point(1.4, 0.4)).norm(), 0.15) << "a mission's file means what it says";
 }
 
 TEST(GoTo, ReachesAPlaceWithinTheTolerance) {

@@ -125,6 +125,23 @@ TEST(Explore, CirclesAnObjectThatStandsFree) {
   EXPECT_LT(host.driven_m, 18.5) << host.picture();
 }
 
+// What it has looked at is elsewhere on the map, and still looked at.
+TEST(Explore, LooksAtNothingAgainWhenTheMapHasMoved) {
+  const auto driven_m = [](bool moves, bool is_known) {
+    FakeHost host(kRoomWithObject);
+    Explore explore({});
+    EXPECT_EQ(host.run(explore, 75.0).state, StepState::running);
+    if (moves) host.move_map({1.5, -1.0});
+    if (!is_known) host.last_map_move.reset();
+    EXPECT_EQ(host.run(explore, 900.0).state, StepState::success) << host.picture();
+    EXPECT_EQ(missed_cells(host), 0) << host.picture();
+    return host.driven_m;
+  };
+  const double still_m = driven_m(false, true);
+  EXPECT_LT(driven_m(true, true), still_m + 2.0);
+  EXPECT_GT(driven_m(true, false), still_m + 3.0) << "nobody knows where it has looked";
+}
+
 TEST(Explore, DrivesNoLapsWhenItNeedNotLookCloser) {
   FakeHost host(kRoomWithObject);
   ExploreConfig config;

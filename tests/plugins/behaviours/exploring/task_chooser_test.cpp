@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/plugins/behaviours/ascii_grid.hpp"
 
 namespace cairn::behaviours {
@@ -69,6 +71,26 @@ TEST_F(Choosing, NothingOnceTheFrontierIsGivenUp) {
     chooser.give_up(*task, world());
   }
   FAIL() << "it chooses what was given up again and again";
+}
+
+// The map and all in it lie a metre further.
+TEST_F(Choosing, WhatWasGivenUpMovesWithTheMap) {
+  TaskChooser chooser = this->chooser();
+  while (const auto task = chooser.choose(world(), std::nullopt)) chooser.give_up(*task, world());
+  const Pose2 before = std::exchange(T_map_robot, Pose2{1.0, 1.0, 0.0} * T_map_robot);
+  const OccupancyGrid grid = std::exchange(map.grid, OccupancyGrid(map.grid.cell_m()));
+  const CellBox box = grid.bounds();
+  for (int y = box.min.y; y < box.max.y; ++y)
+    for (int x = box.min.x; x < box.max.x; ++x)
+      if (grid.state({x, y}) != CellState::unknown)
+        map.grid.set_log_odds(map.grid.cell_at(grid.centre_of({x, y}) + Point(1.0, 1.0)), grid.log_odds({x, y}));
+  const MapMove move({before}, {T_map_robot});
+  for (const MapMove* const known : {&move, static_cast<const MapMove*>(nullptr)}) {
+    chooser.begin_in_new_map(world(), known);
+    chooser.begin_here(world());
+    chooser.see(world());
+    EXPECT_EQ(chooser.choose(world(), std::nullopt).has_value(), known == nullptr) << "else all is forgotten";
+  }
 }
 
 TEST_F(Choosing, APathIsBlockedWhenSomethingTurnsUpOnIt) {

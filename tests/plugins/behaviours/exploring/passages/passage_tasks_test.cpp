@@ -70,6 +70,20 @@ TEST(PassageTasks, OneThatWasLookedAtAndNotDrivenThroughYetIsDrivenThroughNext) 
   EXPECT_EQ(task->kind, TaskKind::passage);
 }
 
+TEST(PassageTasks, WhatWasTriedMovesWithTheMap) {
+  Passing passing(5);
+  const ExploreTask drive = *passing.look(0.7);
+  const Pose2 T{3.0, -2.0, radians(90.0)};
+  passing.tasks.move({{passing.trace[0]}, {T * passing.trace[0]}});
+  ASSERT_TRUE(passing.next());
+  EXPECT_EQ(passing.next()->kind, TaskKind::opening) << "the one at the old place is another";
+  passing.tasks.move({{passing.trace[0]}, {inverse(T) * passing.trace[0]}});
+  const std::optional<ExploreTask> again = passing.next();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->kind, TaskKind::passage);
+  EXPECT_NEAR((again->beyond_m - drive.beyond_m).norm(), 0.0, 1e-9);
+}
+
 TEST(PassageTasks, OneThatWasNotGotThroughIsTriedOnceMoreAndLookedAtAgain) {
   Passing passing(5);
   passing.tasks.record(*passing.look(0.7), false, "the robot is blocked");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "maps/geometry/pose.hpp"
@@ -25,5 +26,15 @@ class MapMove {
   std::vector<Pose2> after_;
   std::vector<std::size_t> stations_;  // some distance apart on the way
 };
+
+struct MovedPath {
+  std::vector<Point> points;  // more than before, where those were far apart
+  double bend_m = 0.0;        // see moved_path()
+};
+// A path of the map before, in this one, and by how much its shape has changed: the farthest that one of its points is
+// from where the path would have it, turned and shifted as a whole so that it fits best. O(length of path and way).
+[[nodiscard]] MovedPath moved_path(const MapMove& move, std::span<const Point> path);
+// One that was bent by more than this is planned anew.
+inline constexpr double kMaxBend_m = 0.2;
 
 }  // namespace cairn
