@@ -146,12 +146,11 @@ TEST_P(BehaviourConformance, OddWorldsAreOutcomesNotExceptions) {
 }
 
 TEST_P(BehaviourConformance, AMapThatIsExchangedIsAnOutcomeNotAnException) {
-  for (const int ticks : {1, 7, 40})
-    for (const bool is_known : {true, false})
-      expect_unharmed("a map that is exchanged after " + std::to_string(ticks) + " ticks", [&](BehaviourHost& host) {
-        host.ticks_to_exchange = ticks;
-        host.knows_map_moves = is_known;
-      });
+  for (const bool is_known : {true, false})
+    expect_unharmed("a map that is exchanged again and again", [&](BehaviourHost& host) {
+      host.ticks_to_exchange = 100;
+      host.knows_map_moves = is_known;
+    });
 }
 
 TEST_P(BehaviourConformance, OddPosesAndTimesAreOutcomesNotExceptions) {
