@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include "tests/plugins/submap_graph/driven_ring.hpp"
@@ -134,6 +136,28 @@ class ThrowingCloser : public LoopCloser {
 
 TEST(LaserGraph, WhatALoopCloserThrowsInItsThreadComesOutWithAScan) {
   EXPECT_THROW((void)driven(ring_drive(2, 0.0, 0.0), std::make_shared<ThrowingCloser>()), std::runtime_error);
+}
+
+// Searches until nobody waits any more.
+class EndlessCloser : public LoopCloser {
+ public:
+  std::vector<LoopProposal> propose(const LoopQuery&, const Budget& budget) override {
+    const auto at_most = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!budget.exhausted() && std::chrono::steady_clock::now() < at_most)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    was_cancelled = budget.exhausted();
+    return {};
+  }
+  std::atomic<bool> was_cancelled = false;
+};
+
+TEST(LaserGraph, ItsEndCancelsTheSearchUnderWay) {
+  const auto closer = std::make_shared<EndlessCloser>();
+  {
+    LaserGraph graph({}, {1.0, 1.0, 0.0}, closer);
+    graph.add(seen_from(ring_walls(), {1.0, 1.0, 0.0}, kBeams, 0.01, 1), {}, kPeriod_s);
+  }
+  EXPECT_TRUE(closer->was_cancelled);
 }
 
 TEST(LaserGraph, WithoutACloserNoLoopCloses) {
