@@ -53,9 +53,10 @@ class ExhaustiveCloser : public LoopCloser {
  public:
   std::vector<LoopProposal> propose(const LoopQuery& query, const Budget&) override {
     std::vector<LoopProposal> proposals;
+    if (query.is_afterwards) return proposals;  // under way is enough
     for (std::size_t i = 0; i < query.submaps.size(); ++i) {
       const PassedSubmap& passed = query.submaps[i];
-      if (passed.distance_m > 3.0) continue;
+      if (passed.distance_m > 1.0) continue;
       const LikelihoodField field(passed.submap->points_m(), 0.1, 0.12);
       const Pose2 T_submap_guess = inverse(passed.T_map_submap) * query.T_map_node;
       const auto best = search_all(field, query.points_m, {T_submap_guess, 1.0, radians(12.0)}, 0.6);
