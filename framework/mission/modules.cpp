@@ -85,6 +85,28 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
       build<Detector>(library, detector, {context_for(mission, library, PluginKind::detector), built.templates});
 }
 
+// What making modules throws, each once.
+class MakingErrors {
+ public:
+  template <class Make>
+  void attempt(Make make) {
+    try {
+      make();
+    } catch (const ConfigError& error) {
+      for (const ConfigError& one : each_of(error)) add(one.what());
+    } catch (const ModuleFault& fault) {
+      add(fault.what());
+    }
+  }
+  void add(const char* error) {
+    if (std::ranges::find(errors_, error) == errors_.end()) errors_.emplace_back(error);
+  }
+  [[nodiscard]] std::vector<std::string> take() && { return std::move(errors_); }
+
+ private:
+  std::vector<std::string> errors_;
+};
+
 // The default one is made only for a localizer that takes it.
 bool is_chosen(const PluginChoice& loop_closer) {
   return loop_closer.name != default_loop_closer().name || !loop_closer.config.entries.empty();
@@ -272,53 +294,41 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
 }
 
 std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library) {
-  std::vector<std::string> errors;
-  const auto add = [&](const char* error) {
-    if (std::ranges::find(errors, error) == errors.end()) errors.emplace_back(error);
-  };
-  const auto attempt = [&](auto make) {
-    try {
-      make();
-    } catch (const ConfigError& error) {
-      for (const ConfigError& one : each_of(error)) add(one.what());
-    } catch (const ModuleFault& fault) {
-      add(fault.what());
-    }
-  };
   const MissionConfig& config = mission.config;
+  MakingErrors errors;
   MissionModules built;
   built.T_map_start = start_of(config);
-  attempt([&] {
+  errors.attempt([&] {
     if (config.sensor.name.empty()) return;
     const auto sensor = build_sensor(mission, library, built);
     check_has_steps(config, mission.steps, *sensor);
     check_can_start(mission, *sensor);
   });
-  attempt([&] {
+  errors.attempt([&] {
     if (!config.localizer.name.empty())
       (void)build_localizer(mission, library, LocalizerStart{built.T_map_start, {}}, built.loop_closer_calls);
   });
-  attempt([&] {
+  errors.attempt([&] {
     if (is_chosen(config.loop_closer)) (void)build_loop_closer(mission, library, built.loop_closer_calls);
   });
-  attempt([&] {
+  errors.attempt([&] {
     if (!config.map.name.empty()) built.mapper = build_mapper(mission, library);
   });
-  attempt([&] {
+  errors.attempt([&] {
     if (config.detector.name.empty() || !built.mapper) return;
     Mission ideal = mission;
     ideal.template_settings.rendering = Rendering::ideal;
     add_detector(ideal, library, built.mapper->grid().cell_m(), built);
   });
-  attempt([&] { (void)build_marker_detector(mission, library); });
-  attempt([&] {
+  errors.attempt([&] { (void)build_marker_detector(mission, library); });
+  errors.attempt([&] {
     if (!config.planner.name.empty()) (void)build_planner(mission, library);
   });
-  attempt([&] { (void)build_controller(mission, library); });
-  for (const ConfigError& error : missing_inputs(mission.steps, library)) errors.emplace_back(error.what());
+  errors.attempt([&] { (void)build_controller(mission, library); });
+  for (const ConfigError& error : missing_inputs(mission.steps, library)) errors.add(error.what());
   for (const TreeNode* node : behaviours_of(mission.steps))
-    attempt([&] { (void)build_behaviour(mission, library, *node); });
-  return errors;
+    errors.attempt([&] { (void)build_behaviour(mission, library, *node); });
+  return std::move(errors).take();
 }
 
 void check_orders(const std::vector<RecordedOrder>& orders, const Mission& mission, const ModuleLibrary& library) {
