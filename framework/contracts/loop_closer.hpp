@@ -27,7 +27,7 @@ struct PassedSubmap {
 // A node of the pose graph whose place is searched for. Spans are valid during the call only.
 struct LoopQuery {
   std::size_t node = 0;             // its number; they rise by the way
-  std::span<const Point> points_m;  // echoes in the node's frame, of one scan or gathered; may be empty
+  std::span<const Point> points_m;  // finite, in the node's frame, of one scan or gathered; may be empty
   double gathered_m = 0.0;  // of sensors with few beams: the way over which odometry has put them together; 0: one scan
   double echo_sigma_m = 0.03;  // standard deviation of an echo
   Pose2 T_map_node;            // where the localizer believes it to be
@@ -51,10 +51,10 @@ struct LoopProposal {
 class LoopCloser {
  public:
   virtual ~LoopCloser() = default;
-  // At most one for each submap; none is an answer. The same calls give the same answers. Asked for each node
-  // in the order of the way, also without submaps; at the end once more for each, is_afterwards. Called in a thread
-  // beside the mission's, never by two at once. Begins no submap once the budget is exhausted: then nobody waits any
-  // more.
+  // At most one for each submap; none is an answer. The same calls give the same answers. Asked for each node in the
+  // order of the way, also without submaps; at the end once more for each, is_afterwards. Mostly called in a thread
+  // beside the mission's, never by two at once. Begins no submap once the budget is exhausted: nobody waits any more.
+  // A proposal that is not finite, or cannot be, ends the mission with the module's name.
   [[nodiscard]] virtual std::vector<LoopProposal> propose(const LoopQuery& query, const Budget& budget) = 0;
 };
 
