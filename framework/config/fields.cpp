@@ -88,6 +88,9 @@ const FieldSpec* field_of(const Schema& schema, std::string_view key) {
 // lists: all keys that there are, which is said once of a map.
 [[noreturn]] void fail_unknown(const ConfigValue::Entry& entry, const Schema& schema, const std::string& what,
                                bool lists) {
+  const auto moved = std::ranges::find(schema.moved, entry.key, &MovedKey::key);
+  if (moved != schema.moved.end())
+    throw ConfigError(entry.key_place, "the key " + in_quotes(entry.key) + " in " + what + " is now " + moved->now);
   const std::vector<std::string> known = keys_of(schema);
   const std::string allowed = !lists ? "" : known.empty() ? "; it takes none" : "; known: " + joined(known);
   throw ConfigError(entry.key_place,

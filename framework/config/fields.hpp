@@ -265,6 +265,8 @@ class Fields {
     return add(std::move(key), std::move(type), std::move(meaning), "", member,
                [](const ConfigValue& v, const std::string&) { return v; });
   }
+  // An error names what stands in place of an old key: "`search.window_m`".
+  void moved(std::string key, std::string now) { schema_.moved.push_back({std::move(key), std::move(now)}); }
   void shorthand(std::string key) { schema_.shorthand = std::move(key); }
   // Such a field has no default: what is left out does not apply.
   void one_of(std::vector<std::string> keys) {

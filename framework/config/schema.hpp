@@ -38,12 +38,19 @@ struct FieldSpec {
   std::function<void(void* config, const ConfigValue& value)> load;
 };
 
+// A key that is no field any more, and what stands in its place.
+struct MovedKey {
+  std::string key;
+  std::string now;
+};
+
 struct Schema {
   std::vector<FieldSpec> fields;
   std::string shorthand;  // the field that a scalar or list in place of the map stands for
   // Exactly one of these must be given. Shown to readers of the reference and the schema; whoever loads
   // the struct asks config_detail::exactly_one_of which one it is.
   std::vector<std::string> one_of;
+  std::vector<MovedKey> moved;
 
   // Loads a map (or the shorthand) into a config object. what: "robot", "plugin explore", ... Throws ConfigError: the
   // first mistake, with all others that do not depend on it; what is right is loaded then too.

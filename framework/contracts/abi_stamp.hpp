@@ -10,6 +10,7 @@
 #include "framework/contracts/controller.hpp"
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/localizer.hpp"
+#include "framework/contracts/loop_closer.hpp"
 #include "framework/contracts/mapper.hpp"
 #include "framework/contracts/marker_detector.hpp"
 #include "framework/contracts/path_planner.hpp"
@@ -31,11 +32,11 @@ struct AbiStamp {
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
   std::uint32_t contracts;  // kContractsVersion
-  std::uint32_t sizes[33];  // of the exchanged types, as this_abi_stamp() lists them
+  std::uint32_t sizes[37];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
 // Raised whenever the signature of an interface or an exchanged type changes: sizes need not show that.
-inline constexpr std::uint32_t kContractsVersion = 9;
+inline constexpr std::uint32_t kContractsVersion = 10;
 inline constexpr std::uint32_t kAbiMagic = 0x4341524e;  // "CARN"
 
 namespace abi_detail {
@@ -74,6 +75,8 @@ constexpr void copy(char (&out)[N], std::string_view text) {
       sizeof(MapperContext), sizeof(DetectorContext),  sizeof(BehaviourFactoryContext),
       sizeof(Status),        sizeof(ControlRequest),   sizeof(ControlResult),
       sizeof(CameraImage),   sizeof(MarkerSighting),   sizeof(CameraModel),
+      sizeof(LoopQuery),     sizeof(LoopProposal),     sizeof(PassedSubmap),
+      sizeof(Submap),
   };
   static_assert(sizeof sizes == sizeof stamp.sizes);
   for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];

@@ -26,6 +26,8 @@ std::string_view name_of(PluginKind kind) {
       return "controller";
     case PluginKind::marker_detector:
       return "marker_detector";
+    case PluginKind::loop_closer:
+      return "loop_closer";
   }
   return "?";
 }

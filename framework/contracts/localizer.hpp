@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -65,10 +67,15 @@ struct StartUncertainty {
   double heading_rad = 0.0;
 };
 
+class LoopCloser;
+
 struct LocalizerContext : ModuleContext {
   Pose2 T_map_start{};                               // where the robot begins
   std::span<const LandmarkShape> landmark_shapes{};  // the outlines that the mission's templates describe
   StartUncertainty start_uncertainty{};
+  // Makes the mission's loop closer (loop_closer.hpp), a new one each time. Only a localizer that closes loops calls
+  // it, so others have none built. What it throws must pass. Empty: there is none, so no loop is closed by a search.
+  std::function<std::shared_ptr<LoopCloser>()> loop_closer{};
 };
 
 template <>

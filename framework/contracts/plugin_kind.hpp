@@ -17,13 +17,14 @@ enum class PluginKind {
   path_planner,
   route_planner,
   controller,
-  marker_detector
+  marker_detector,
+  loop_closer
 };
 // In the order in which people read them.
 inline constexpr PluginKind kPluginKinds[] = {
-    PluginKind::sensor,          PluginKind::localizer, PluginKind::map,          PluginKind::detector,
-    PluginKind::marker_detector, PluginKind::planner,   PluginKind::path_planner, PluginKind::route_planner,
-    PluginKind::controller,      PluginKind::behaviour,
+    PluginKind::sensor,        PluginKind::localizer,       PluginKind::loop_closer, PluginKind::map,
+    PluginKind::detector,      PluginKind::marker_detector, PluginKind::planner,     PluginKind::path_planner,
+    PluginKind::route_planner, PluginKind::controller,      PluginKind::behaviour,
 };
 [[nodiscard]] std::string_view name_of(PluginKind kind);
 

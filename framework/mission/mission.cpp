@@ -143,6 +143,13 @@ PluginChoice default_controller() {
   return choice;
 }
 
+PluginChoice default_loop_closer() {
+  PluginChoice choice;
+  choice.name = "submap_correlation";
+  choice.config.kind = ConfigValue::Kind::map;
+  return choice;
+}
+
 void MissionConfig::describe(Fields<MissionConfig>& fields) {
   using C = MissionConfig;
   fields.file_name("mission", &C::mission, "name of the mission").required = true;
@@ -152,6 +159,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.group("start", &C::start, "where the robot begins; a log with poses may know better");
   fields.plugin("sensor", &C::sensor, "sensor", "source of observations").required = true;
   fields.plugin("localizer", &C::localizer, "localizer", "where the robot is").required = true;
+  fields.plugin("loop_closer", &C::loop_closer, "loop_closer",
+                "proposes where places were passed before, to localizers that close loops");
   fields.plugin("map", &C::map, "map", "builds the occupancy grid").required = true;
   fields.plugin("detector", &C::detector, "detector", "recognises landmarks");
   fields.group("markers", &C::markers,

@@ -31,6 +31,8 @@ struct StartConfig {
 
 // `pursuit_dwa` with its default settings.
 [[nodiscard]] PluginChoice default_controller();
+// `submap_correlation` with its default settings.
+[[nodiscard]] PluginChoice default_loop_closer();
 
 struct MissionConfig {
   std::string mission;
@@ -40,6 +42,7 @@ struct MissionConfig {
   StartConfig start;
   PluginChoice sensor;
   PluginChoice localizer;
+  PluginChoice loop_closer = default_loop_closer();
   PluginChoice map;
   PluginChoice detector;
   PluginChoice planner;

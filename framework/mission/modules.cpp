@@ -1,5 +1,7 @@
 #include "framework/mission/modules.hpp"
 
+#include <algorithm>
+
 #include "framework/behaviour_tree/parameters.hpp"
 #include "framework/contracts/optional/marker_families.hpp"
 #include "framework/mission/named_values.hpp"
@@ -58,6 +60,13 @@ std::shared_ptr<MarkerDetector> build_marker_detector(const Mission& mission, co
   return detector;
 }
 
+std::shared_ptr<LoopCloser> build_loop_closer(const Mission& mission, const ModuleLibrary& library,
+                                              std::shared_ptr<CallsUnderWay> calls) {
+  const PluginChoice& choice = mission.config.loop_closer;
+  auto closer = build<LoopCloser>(library, choice, context_for(mission, library, PluginKind::loop_closer));
+  return std::make_shared<FencedLoopCloser>(std::move(closer), choice.name, std::move(calls));
+}
+
 std::shared_ptr<Mapper> build_mapper(const Mission& mission, const ModuleLibrary& library,
                                      const OccupancyGrid* grid_so_far = nullptr) {
   return build<Mapper>(library, mission.config.map, {context_for(mission, library, PluginKind::map), grid_so_far});
@@ -74,6 +83,33 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
       fenced_making(mission.config.map.name, [&] { return render_templates(mission, cell_m, library); }));
   built.detector =
       build<Detector>(library, detector, {context_for(mission, library, PluginKind::detector), built.templates});
+}
+
+// What making modules throws, each once.
+class MakingErrors {
+ public:
+  template <class Make>
+  void attempt(Make make) {
+    try {
+      make();
+    } catch (const ConfigError& error) {
+      for (const ConfigError& one : each_of(error)) add(one.what());
+    } catch (const ModuleFault& fault) {
+      add(fault.what());
+    }
+  }
+  void add(const char* error) {
+    if (std::ranges::find(errors_, error) == errors_.end()) errors_.emplace_back(error);
+  }
+  [[nodiscard]] std::vector<std::string> take() && { return std::move(errors_); }
+
+ private:
+  std::vector<std::string> errors_;
+};
+
+// The default one is made only for a localizer that takes it.
+bool is_chosen(const PluginChoice& loop_closer) {
+  return loop_closer.name != default_loop_closer().name || !loop_closer.config.entries.empty();
 }
 
 // The default controller is not missed before a behaviour asks for it.
@@ -201,10 +237,11 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
 }
 
 std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
-                                           const LocalizerStart& start) {
-  return build<Localizer>(
-      library, mission.config.localizer,
-      {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes, start.uncertainty});
+                                           const LocalizerStart& start,
+                                           std::shared_ptr<CallsUnderWay> loop_closer_calls) {
+  return build<Localizer>(library, mission.config.localizer,
+                          {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes,
+                           start.uncertainty, [&] { return build_loop_closer(mission, library, loop_closer_calls); }});
 }
 
 std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
@@ -238,7 +275,8 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   }
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
   if (start_known) built.T_map_start = start_known->T_map_start;
-  built.localizer = build_localizer(mission, library, start_known.value_or(LocalizerStart{built.T_map_start, {}}));
+  built.localizer = build_localizer(mission, library, start_known.value_or(LocalizerStart{built.T_map_start, {}}),
+                                    built.loop_closer_calls);
   built.mapper = build_mapper(mission, library);
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
   if (!config.detector.name.empty() && !is_left_alone)
@@ -256,46 +294,41 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
 }
 
 std::vector<std::string> check_modules(const Mission& mission, const ModuleLibrary& library) {
-  std::vector<std::string> errors;
-  const auto attempt = [&](auto make) {
-    try {
-      make();
-    } catch (const ConfigError& error) {
-      for (const ConfigError& one : each_of(error)) errors.emplace_back(one.what());
-    } catch (const ModuleFault& fault) {
-      errors.emplace_back(fault.what());
-    }
-  };
   const MissionConfig& config = mission.config;
+  MakingErrors errors;
   MissionModules built;
   built.T_map_start = start_of(config);
-  attempt([&] {
+  errors.attempt([&] {
     if (config.sensor.name.empty()) return;
     const auto sensor = build_sensor(mission, library, built);
     check_has_steps(config, mission.steps, *sensor);
     check_can_start(mission, *sensor);
   });
-  attempt([&] {
-    if (!config.localizer.name.empty()) (void)build_localizer(mission, library, LocalizerStart{built.T_map_start, {}});
+  errors.attempt([&] {
+    if (!config.localizer.name.empty())
+      (void)build_localizer(mission, library, LocalizerStart{built.T_map_start, {}}, built.loop_closer_calls);
   });
-  attempt([&] {
+  errors.attempt([&] {
+    if (is_chosen(config.loop_closer)) (void)build_loop_closer(mission, library, built.loop_closer_calls);
+  });
+  errors.attempt([&] {
     if (!config.map.name.empty()) built.mapper = build_mapper(mission, library);
   });
-  attempt([&] {
+  errors.attempt([&] {
     if (config.detector.name.empty() || !built.mapper) return;
     Mission ideal = mission;
     ideal.template_settings.rendering = Rendering::ideal;
     add_detector(ideal, library, built.mapper->grid().cell_m(), built);
   });
-  attempt([&] { (void)build_marker_detector(mission, library); });
-  attempt([&] {
+  errors.attempt([&] { (void)build_marker_detector(mission, library); });
+  errors.attempt([&] {
     if (!config.planner.name.empty()) (void)build_planner(mission, library);
   });
-  attempt([&] { (void)build_controller(mission, library); });
-  for (const ConfigError& error : missing_inputs(mission.steps, library)) errors.emplace_back(error.what());
+  errors.attempt([&] { (void)build_controller(mission, library); });
+  for (const ConfigError& error : missing_inputs(mission.steps, library)) errors.add(error.what());
   for (const TreeNode* node : behaviours_of(mission.steps))
-    attempt([&] { (void)build_behaviour(mission, library, *node); });
-  return errors;
+    errors.attempt([&] { (void)build_behaviour(mission, library, *node); });
+  return std::move(errors).take();
 }
 
 void check_orders(const std::vector<RecordedOrder>& orders, const Mission& mission, const ModuleLibrary& library) {

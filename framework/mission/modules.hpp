@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/contracts/marker_detector.hpp"
+#include "framework/mission/loop_closing.hpp"
 #include "framework/mission/mission.hpp"
 #include "framework/mission/orders/order_text.hpp"
 #include "framework/modules/module_library.hpp"
@@ -25,6 +26,8 @@ struct LocalizerStart {
 struct MissionModules {
   std::shared_ptr<Sensor> sensor;
   std::shared_ptr<Localizer> localizer;
+  std::shared_ptr<CallsUnderWay> loop_closer_calls =
+      std::make_shared<CallsUnderWay>(0);  // by localizers of the mission
   std::shared_ptr<Mapper> mapper;
   std::shared_ptr<const TemplateSet> templates;        // null without a detector
   std::shared_ptr<Detector> detector;                  // may be null
@@ -53,9 +56,10 @@ struct BuildOptions {
                                            const SavedMap* resume = nullptr, const BuildOptions& options = {},
                                            const std::optional<LocalizerStart>& start = std::nullopt);
 
-// The mission's localizer alone.
+// The mission's localizer alone, with a loop closer when it takes one, whose calls are counted.
 [[nodiscard]] std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
-                                                         const LocalizerStart& start);
+                                                         const LocalizerStart& start,
+                                                         std::shared_ptr<CallsUnderWay> loop_closer_calls);
 
 // The mission's map module alone. grid_so_far: what it begins with, or null.
 [[nodiscard]] std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,

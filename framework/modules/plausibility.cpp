@@ -78,6 +78,19 @@ std::string fault_of(const MarkerSighting& sighting) {
   return {};
 }
 
+std::string fault_of(const LoopProposal& proposal, std::size_t submaps) {
+  if (proposal.submap >= submaps)
+    return fmt::format("proposed a loop with submap {} of {}", proposal.submap + 1, submaps);
+  const Eigen::Matrix3d& information = proposal.information;
+  if (!cairn::is_finite(proposal.T_submap_node) || !information.allFinite() || !std::isfinite(proposal.score))
+    return "proposed a loop that is not finite";
+  const double off_m = proposal.T_submap_node.position().norm();
+  if (off_m > kMaxPlace_m) return fmt::format("proposed a loop over {:g} m", off_m);
+  if (!information.isApprox(information.transpose(), 1e-6) || information.llt().info() != Eigen::Success)
+    return "proposed a loop whose information is none";
+  return {};
+}
+
 std::string fault_of(const Matching& matching, const OccupancyGrid& grid) {
   if (!is_finite(matching)) return "returned a detection that is not finite";
   if (!matching.detection || is_near(matching.detection->T_map_landmark.position(), grid)) return {};

@@ -11,6 +11,7 @@
 
 #include "framework/contracts/detector.hpp"
 #include "framework/contracts/localizer.hpp"
+#include "framework/contracts/loop_closer.hpp"
 #include "framework/contracts/marker.hpp"
 #include "framework/contracts/robot_model.hpp"
 #include "framework/modules/wall_clock.hpp"
@@ -51,6 +52,8 @@ class ObservationCheck {
 };
 [[nodiscard]] std::string fault_of(const PoseEstimate& pose);
 [[nodiscard]] std::string fault_of(const MarkerSighting& sighting);
+// submaps: so many were asked for.
+[[nodiscard]] std::string fault_of(const LoopProposal& proposal, std::size_t submaps);
 [[nodiscard]] std::string fault_of(const Matching& matching, const OccupancyGrid& grid);
 
 }  // namespace cairn

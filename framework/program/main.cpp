@@ -202,8 +202,10 @@ void add_plugins(CLI::App& app, CommandLine& line) {
 void add_plugins_new(CLI::App& app, CommandLine& line) {
   const auto [made, c] = add_command(*app.get_subcommand("plugins"), line, plugins_new, "new",
                                      "Write a small complete project for a module");
-  made->add_option("KIND", c->kind,
-                   "sensor, localizer, map, detector, planner, path_planner, route_planner, controller or behaviour")
+  made->add_option(
+          "KIND", c->kind,
+          "sensor, localizer, loop_closer, map, detector, marker_detector, planner, path_planner, route_planner, "
+          "controller or behaviour")
       ->required();
   made->add_option("NAME", c->name, "of the module, in lower_snake_case")->required();
   made->add_option("--folder", c->folder, "of the new project; without it, NAME");

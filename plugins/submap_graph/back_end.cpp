@@ -14,12 +14,13 @@ void BackEnd::add(const NewNode& node) {
       graph_.add_node(graph_.size() == 0 ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
   for (const LocalMap::Tie& tie : node.ties) graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information);
   finished_.insert(finished_.end(), node.finished.begin(), node.finished.end());
-  closer_.add_node(node.points_m, node.T_local_node);
-  for (const Closure& closure : closer_.close(number, graph_, finished_)) graph_.add(closure);
+  closures_.add_node(node.points_m, node.T_local_node);
+  const Budget budget{.cancel = &is_cancelled_};
+  for (const Closure& closure : closures_.close(number, graph_, finished_, budget)) graph_.add(closure);
 }
 
 void BackEnd::search_again(std::size_t node, std::span<const std::shared_ptr<const Submap>> submaps) {
-  for (const Closure& closure : closer_.close_again(node, graph_, submaps)) graph_.add(closure);
+  for (const Closure& closure : closures_.close_again(node, graph_, submaps)) graph_.add(closure);
 }
 
 Correction BackEnd::solve_last() {
@@ -35,7 +36,7 @@ bool BackEnd::solve() {
 
 Correction BackEnd::correction(bool is_moved) const {
   Correction correction;
-  correction.trusted_at_m = closer_.trusted_at_m();
+  correction.trusted_at_m = closures_.trusted_at_m();
   if (!is_moved) return correction;
   correction.T_map_node.reserve(graph_.size());
   for (std::size_t node = 0; node < graph_.size(); ++node) correction.T_map_node.push_back(graph_.T_map(node));

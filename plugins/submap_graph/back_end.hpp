@@ -2,6 +2,7 @@
 // so it may work in a thread of its own (LaserGraph), one part of the way after the other.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <span>
 #include <vector>
@@ -39,13 +40,17 @@ struct Correction {
 
 class BackEnd {
  public:
-  explicit BackEnd(const Config& config) : config_(config), closer_(config) {}
+  // closer: may be null.
+  BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer)
+      : config_(config), closures_(config, std::move(closer)) {}
 
   Correction add(const Stretch& stretch);
   // Searches closures of a node again, with all submaps and small windows.
   void search_again(std::size_t node, std::span<const std::shared_ptr<const Submap>> submaps);
   // For the last time.
   Correction solve_last();
+  // From another thread: nobody waits for what is under way any more.
+  void cancel() { is_cancelled_ = true; }
 
   [[nodiscard]] const TiedGraph& graph() const { return graph_; }
 
@@ -56,7 +61,8 @@ class BackEnd {
 
   Config config_;
   TiedGraph graph_;
-  Closer closer_;
+  Closures closures_;
+  std::atomic<bool> is_cancelled_ = false;
   FinishedSubmaps finished_;
   std::size_t solved_at_node_ = 0;
   std::size_t solved_closures_ = 0;

@@ -1,5 +1,7 @@
 #include "plugins/submap_graph/config.hpp"
 
+#include <string>
+
 namespace cairn::submap_graph {
 
 void Config::describe(Fields<Config>& fields) {
@@ -17,6 +19,8 @@ void Config::describe(Fields<Config>& fields) {
   fields.number("search_m", &Config::search_m, {0.0, 10.0}, "m",
                 "a scan is also searched for so far around where odometry puts it");
   fields.angle("search_deg", &Config::search_rad, {0.0, 180.0}, "the same for the heading");
+  fields.number("search_sigma_m", &Config::search_sigma_m, {0.01, 10.0}, "m",
+                "there: of the likelihood of an echo by its distance to the submap's nearest one");
   fields.number("odometry_ratio", &Config::odometry_ratio, {0.001, 10.0}, "",
                 "standard deviation of a step of odometry, of its length");
   fields.angle("odometry_deg_per_m", &Config::odometry_rad_per_m, {0.01, 180.0},
@@ -31,23 +35,18 @@ void Config::describe(Fields<Config>& fields) {
       "gather_m", &Config::gather_m, {0.0, 1000.0}, "m",
       "for sonars: a single scan is not matched, odometry counts from node to node; closures are searched with "
       "the echoes of so much of the way; 0: for lasers");
-  fields.number("field_sigma_m", &Config::field_sigma_m, {0.01, 10.0}, "m",
-                "of the likelihood of an echo by its distance to a submap's nearest one");
   fields.number(
       "drift_ratio", &Config::drift_ratio, {0.0, 1.0}, "",
-      "drift of the pose since the last closure, of the way: by it the windows of closures grow, and closures "
+      "drift of the pose since the last closure, of the way: the loop closer looks around so far, and closures "
       "may disagree");
-  fields.number("min_window_m", &Config::min_window_m, {0.1, 100.0}, "m", "half side of the least window");
-  fields.number("max_window_m", &Config::max_window_m, {0.1, 100.0}, "m", "and of the greatest");
-  fields.angle("window_deg", &Config::window_rad, {0.1, 180.0}, "half angle of the windows of closures");
-  fields.number("min_score", &Config::min_score, {0.0, 1.0}, "",
-                "mean likelihood of a scan's echoes in a submap, from which on it may be a closure");
-  fields.number("min_matched_ratio", &Config::min_matched_ratio, {0.0, 1.0}, "",
-                "and the part of them that must lie on its walls");
   fields.number("witness_m", &Config::witness_m, {0.1, 1000.0}, "m",
                 "a closure waits so far on the way for a second one that agrees");
   fields.integer("solve_every_nodes", &Config::solve_every_nodes, {1, 100000},
                  "nodes between two solutions of the pose graph");
+  fields.moved("field_sigma_m",
+               "`loop_closer.field_sigma_m`, and here `search_sigma_m` for the search around odometry");
+  for (const char* key : {"min_window_m", "max_window_m", "window_deg", "min_score", "min_matched_ratio"})
+    fields.moved(key, "`loop_closer." + std::string(key) + "`");
 }
 
 }  // namespace cairn::submap_graph

@@ -19,6 +19,7 @@ struct Config {
   double echo_sigma_m = 0.03;
   double search_m = 0.3;
   double search_rad = radians(12.0);
+  double search_sigma_m = 0.12;
   double odometry_ratio = 0.2;
   double odometry_rad_per_m = radians(10.0);
   double odometry_rad_per_rad = 0.1;
@@ -28,13 +29,7 @@ struct Config {
   double submap_m = 5.0;
   double gather_m = 0.0;
   // Closures.
-  double field_sigma_m = 0.12;
   double drift_ratio = 0.03;
-  double min_window_m = 1.0;
-  double max_window_m = 7.0;
-  double window_rad = radians(15.0);
-  double min_score = 0.55;
-  double min_matched_ratio = 0.6;
   double witness_m = 15.0;
   int solve_every_nodes = 10;
 

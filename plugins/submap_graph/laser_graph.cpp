@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "maps/pose_graph/information.hpp"
+
 namespace cairn::submap_graph {
 namespace {
 
@@ -18,12 +20,16 @@ Eigen::Matrix3d floored(const Eigen::Matrix3d& information) {
 
 }  // namespace
 
-LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start)
+LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer)
     : config_(config),
       local_map_(config),
       gathered_(config.gather_m),
       T_map_start_(T_map_start),
-      back_end_(std::make_unique<BackEnd>(config)) {}
+      back_end_(std::make_unique<BackEnd>(config, std::move(closer))) {}
+
+LaserGraph::~LaserGraph() {
+  if (back_end_) back_end_->cancel();
+}
 
 Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s) {
   take_answer_when_due(stamp_s);

@@ -31,7 +31,10 @@ class LaserGraph {
   static constexpr double kAnswerAfter_s = 0.2;
   static constexpr int kAnswerAfterScans = 50;  // at the latest, whatever the stamps
 
-  LaserGraph(const Config& config, const Pose2& T_map_start);
+  // closer: null: no loop is closed by a search.
+  LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer);
+  LaserGraph(LaserGraph&&) = default;
+  ~LaserGraph();
 
   // A scan as seen from the robot. Where the robot is.
   Pose2 add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s);

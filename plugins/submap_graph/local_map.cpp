@@ -59,7 +59,7 @@ Alignment LocalMap::aligned_with_older(std::span<const Point> points_m, const Po
   const SurfaceMap& map = open_.front()->surfaces();
   const AlignmentSettings settings = alignment_of(config_);
   Alignment near = align(map, points_m, odometry.T_map_scan, odometry, settings);
-  if (!field_) field_ = open_.front()->pyramid(kFieldCell_m, config_.field_sigma_m, kLocalLevels);
+  if (!field_) field_ = open_.front()->pyramid(kFieldCell_m, config_.search_sigma_m, kLocalLevels);
   const auto found = search(*field_, points_m, {odometry.T_map_scan, config_.search_m, config_.search_rad}, kMinScore);
   if (!found) return near;
   const Alignment other = align(map, points_m, found->T_field_scan, odometry, settings);

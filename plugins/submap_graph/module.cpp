@@ -1,5 +1,7 @@
 #include "framework/contracts/module.hpp"
 
+#include <memory>
+
 #include "plugins/submap_graph/submap_graph.hpp"
 
 namespace {
@@ -10,7 +12,8 @@ void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Localizer, Config>(
       "submap_graph", "odometry and laser scans: submaps in a pose graph that closes loops and corrects the past",
       [](const Config& config, const cairn::LocalizerContext& context) {
-        return std::make_unique<SubmapGraph>(config, context.T_map_start);
+        return std::make_unique<SubmapGraph>(config, context.T_map_start,
+                                             context.loop_closer ? context.loop_closer() : nullptr);
       });
 }
 

@@ -1,8 +1,8 @@
 // Localizer: odometry and laser scans, by a graph of submaps that closes loops and corrects the past (docs/slam.md).
 //
 // For robots with a laser, with or without a compass. Each scan is laid on the submap under way; places that were
-// passed before are recognised by searching the scan in their submaps, believed with a second witness, and the pose
-// graph is solved. Then the pose jumps to where it is in the corrected map, and history() gives the earlier ones.
+// passed before are proposed by the mission's loop closer, believed with a second witness, and the pose graph is
+// solved. Then the pose jumps to where it is in the corrected map, and history() gives the earlier ones.
 //
 //   odometry that is not finite, or      the step is taken as none
 //   beyond 1000 km
@@ -27,8 +27,9 @@ namespace cairn::submap_graph {
 
 class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraphReport {
  public:
-  SubmapGraph(const Config& config, const Pose2& T_map_start)
-      : config_(config), sweep_(config.sweep_s), graph_(config, T_map_start) {}
+  // closer: null: no loop is closed by a search.
+  SubmapGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer)
+      : config_(config), sweep_(config.sweep_s), graph_(config, T_map_start, std::move(closer)) {}
 
   PoseEstimate update(const Observation& observation, const KnownMap& known) override;
   PoseHistory* history() override { return this; }

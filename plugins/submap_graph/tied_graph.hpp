@@ -49,9 +49,4 @@ class TiedGraph {
   std::size_t solved_ = 0;  // so many closures were part of the last solution
 };
 
-// Covariance with a floor: what is measured is never better than that.
-[[nodiscard]] Eigen::Matrix3d with_floor(const Eigen::Matrix3d& information, double floor_m, double floor_rad);
-// Information over (x, y, theta) as it is in a frame turned by -angle.
-[[nodiscard]] Eigen::Matrix3d information_in_turned(const Eigen::Matrix3d& information, double angle_rad);
-
 }  // namespace cairn::submap_graph

@@ -41,6 +41,14 @@ std::unique_ptr<const ModuleLibrary> ModuleSource::new_library() const {
   return std::make_unique<const ModuleLibrary>(folders_);
 }
 
+std::function<std::shared_ptr<LoopCloser>()> loop_closer_of(const ModuleLibrary* modules,
+                                                            const ModuleContext& context) {
+  PluginChoice choice{"submap_correlation", {}};
+  choice.config.kind = ConfigValue::Kind::map;
+  if (modules == nullptr || modules->find_of(PluginKind::loop_closer, choice.name) == nullptr) return {};
+  return [modules, context, choice] { return modules->make<LoopCloser>(choice, context); };
+}
+
 RobotModel robot_of_file(const std::filesystem::path& file) {
   return load_robot(file);
 }

@@ -59,6 +59,10 @@ class ModuleSource {
   std::shared_ptr<Shared> shared_;
 };
 
+// For localizers: makes Cairn's own loop closer. Empty where the folders do not hold it.
+[[nodiscard]] std::function<std::shared_ptr<LoopCloser>()> loop_closer_of(const ModuleLibrary* modules,
+                                                                          const ModuleContext& context);
+
 template <class Interface>
 class Subject {
  public:
@@ -117,13 +121,13 @@ class Subject {
     change(copy.setup_);
     return copy;
   }
-  [[nodiscard]] ContextOf<Interface> context(const ModuleMaker* modules, std::uint64_t seed) const {
+  [[nodiscard]] ContextOf<Interface> context(const ModuleLibrary* modules, std::uint64_t seed) const {
     using Context = ContextOf<Interface>;
     const ModuleContext common{setup_.robot, seed, modules};
     if constexpr (std::is_same_v<Context, SensorContext>)
       return {common, setup_.world.get(), setup_.T_map_start};
     else if constexpr (std::is_same_v<Context, LocalizerContext>)
-      return {common, setup_.T_map_start, setup_.landmark_shapes};
+      return {common, setup_.T_map_start, setup_.landmark_shapes, {}, loop_closer_of(modules, common)};
     else if constexpr (std::is_same_v<Context, MapperContext>)
       return {common, setup_.grid_so_far.get()};
     else if constexpr (std::is_same_v<Context, DetectorContext>)

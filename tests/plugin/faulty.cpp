@@ -1,6 +1,7 @@
 // Modules that fail in every way that a mission must survive, and a small sensor that works.
 #include <chrono>
 #include <cstdlib>
+#include <future>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -82,6 +83,64 @@ class NanLocalizer : public Localizer {
     return pose;
   }
 };
+
+// Asks its loop closer in a thread of its own, as a localizer with a back end does.
+class AskingLocalizer : public Localizer {
+ public:
+  explicit AskingLocalizer(std::shared_ptr<LoopCloser> closer) : closer_(std::move(closer)) {}
+  PoseEstimate update(const Observation&, const KnownMap&) override {
+    const PassedSubmap passed[] = {{std::make_shared<Submap>(0, 0.1), {}, 1.0}};
+    LoopQuery query;
+    query.submaps = passed;
+    const auto ask = [&] { return closer_->propose(query, Budget{}).size(); };
+    if (std::async(std::launch::async, ask).get() != 1) std::abort();
+    return {};
+  }
+
+ private:
+  std::shared_ptr<LoopCloser> closer_;
+};
+
+// Proposes the first submap, in one way or another.
+class FaultyCloser : public LoopCloser {
+ public:
+  explicit FaultyCloser(LoopProposal (*propose)()) : propose_(propose) {}
+  std::vector<LoopProposal> propose(const LoopQuery&, const Budget&) override { return {propose_()}; }
+
+ private:
+  LoopProposal (*propose_)();
+};
+
+LoopProposal throw_no_memory() {
+  throw std::runtime_error("no memory of this place");
+}
+
+LoopProposal throw_number() {
+  throw 42;
+}
+
+LoopProposal propose_nan() {
+  LoopProposal proposal;
+  proposal.T_submap_node.y_m = std::numeric_limits<double>::quiet_NaN();
+  return proposal;
+}
+
+LoopProposal propose_second() {
+  LoopProposal proposal;
+  proposal.submap = 1;
+  return proposal;
+}
+
+LoopProposal hang_and_propose() {
+  hang();
+  return {};
+}
+
+template <LoopProposal (*propose)()>
+void add_closer(Registrar& registrar, const char* name) {
+  registrar.add<LoopCloser, NoConfig>(
+      name, "for tests", [](const NoConfig&, const ModuleContext&) { return std::make_unique<FaultyCloser>(propose); });
+}
 
 class EmptyMapper : public Mapper {
  public:
@@ -236,6 +295,15 @@ void register_module(Registrar& registrar) {
                                   });
   add_plain<Localizer, StillLocalizer>(registrar, "still_localizer");
   add_plain<Localizer, NanLocalizer>(registrar, "nan_localizer");
+  registrar.add<Localizer, NoConfig>("asking_localizer", "for tests",
+                                     [](const NoConfig&, const LocalizerContext& context) {
+                                       return std::make_unique<AskingLocalizer>(context.loop_closer());
+                                     });
+  add_closer<throw_no_memory>(registrar, "throwing_closer");
+  add_closer<throw_number>(registrar, "number_throwing_closer");
+  add_closer<propose_nan>(registrar, "nan_closer");
+  add_closer<propose_second>(registrar, "elsewhere_closer");
+  add_closer<hang_and_propose>(registrar, "hanging_closer");
   add_plain<Mapper, EmptyMapper>(registrar, "empty_map");
   add_plain<Mapper, ThrowingMapper>(registrar, "throwing_map");
   add_plain<Mapper, NumberThrowingMapper>(registrar, "number_throwing_map");

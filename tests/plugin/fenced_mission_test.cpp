@@ -96,6 +96,50 @@ TEST_F(FencedMission, AVelocityThatIsNotANumberEndsTheMission) {
             "module drive_nan failed in stage behaviour: asked for a velocity that is not finite");
 }
 
+class FencedLoopClosing : public FencedMission {
+ protected:
+  // Of a mission whose localizer asks this loop closer at each observation.
+  std::string reason_with(const std::string& closer, const std::string& more = "") {
+    MissionRunner runner(
+        mission_with("asking_localizer", "empty_map", "[endless]", "loop_closer: {plugin: " + closer + "}\n" + more),
+        library_, {folder_, false, nullptr});
+    const MissionResult result = runner.run();
+    EXPECT_EQ(result.outcome, MissionOutcome::module_fault);
+    EXPECT_TRUE(fs::exists(folder_ / result.map_file));
+    return result.reason;
+  }
+};
+
+TEST_F(FencedLoopClosing, WhatALoopCloserThrowsInAnotherThreadNamesIt) {
+  EXPECT_EQ(reason_with("throwing_closer"),
+            "module throwing_closer failed in stage loop closer: no memory of this place");
+  EXPECT_EQ(reason_with("number_throwing_closer"),
+            "module number_throwing_closer failed in stage loop closer: threw something that is no std::exception");
+}
+
+TEST_F(FencedLoopClosing, AProposalThatCannotBeEndsTheMission) {
+  EXPECT_EQ(reason_with("nan_closer"),
+            "module nan_closer failed in stage loop closer: proposed a loop that is not finite");
+  EXPECT_EQ(reason_with("elsewhere_closer"),
+            "module elsewhere_closer failed in stage loop closer: proposed a loop with submap 2 of 1");
+}
+
+TEST_F(FencedLoopClosing, ALoopCloserThatNeverReturnsIsNamedNotTheLocalizerThatWaitsForIt) {
+  EXPECT_EQ(reason_with("hanging_closer", "watchdog_s: 0.2\n"),
+            "module hanging_closer has not returned from stage loop closer for 200 ms and was given up");
+}
+
+TEST_F(FencedLoopClosing, ALoopCloserThatIsMissingIsAnErrorOfThatKey) {
+  try {
+    (void)reason_with("nan_closr");
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("mission.yaml:7:"),
+                      HasSubstr("unknown loop_closer plugin \"nan_closr\" (did you mean \"nan_closer\"?)")));
+  }
+}
+
 class ThrowingListener : public Listener {
  public:
   void on(const Event&, const MissionView&) override { throw std::runtime_error("no paper"); }

@@ -35,11 +35,12 @@ bool MissionLoop::give_up_after(std::chrono::nanoseconds longest) {
   if (!has_exited && longest <= std::chrono::nanoseconds(0)) return false;
   const StageClock::Id lost = modules_.clock.give_up_after(has_exited ? std::chrono::nanoseconds(-1) : longest);
   if (lost == StageClock::kHost) return false;
+  const StageClock::Id culprit = has_exited ? lost : modules_.culprit_of(lost);
   // From here on this thread is the only one that touches the mission; only what the lost call works on may still
   // change.
   monitor_.stop_at_once();
-  const std::string& module = modules_.clock.module_of(lost);
-  const std::string& stage = modules_.clock.stage_of(lost);
+  const std::string& module = modules_.clock.module_of(culprit);
+  const std::string& stage = modules_.clock.stage_of(culprit);
   const auto longest_ms = std::chrono::duration_cast<std::chrono::milliseconds>(longest).count();
   ending_ = {MissionOutcome::module_fault,
              has_exited          ? fmt::format("module {} called exit() in stage {}", module, stage)

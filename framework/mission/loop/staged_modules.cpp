@@ -25,6 +25,8 @@ StagedModules::StagedModules(const MissionModules& modules, const Mission& missi
   tick = clock.add("tick", "");
   sensor = staged(modules.sensor, "sensor", config.sensor);
   localizer = staged(modules.localizer, "localizer", config.localizer);
+  loop_closer = clock.add(kLoopCloserStage, config.loop_closer.name);
+  loop_closer_calls = modules.loop_closer_calls;
   mapper = staged(modules.mapper, "map", config.map);
   detector = staged(modules.detector, "detector", config.detector);
   if (config.markers) marker_detector = staged(modules.marker_detector, "marker detector", config.markers->detector);
@@ -39,6 +41,10 @@ StagedModules::StagedModules(const MissionModules& modules, const Mission& missi
   has_drive = sensor && sensor.call([](Sensor& source) { return source.drive(); }) != nullptr;
   if (MissionDisplay* const shown = sensor ? sensor.call([](Sensor& source) { return source.display(); }) : nullptr)
     display = {sensor.part(shown), clock, clock.add("display", config.sensor.name)};
+}
+
+StageClock::Id StagedModules::culprit_of(StageClock::Id stage) const {
+  return stage == localizer.stage() && *loop_closer_calls > 0 ? loop_closer : stage;
 }
 
 }  // namespace cairn

@@ -32,11 +32,16 @@ struct StagedModules {
   StagedModules(const StagedModules&) = delete;  // the parts refer to the clock
   StagedModules& operator=(const StagedModules&) = delete;
 
+  // Whose fault it is that a stage does not come to its end: a localizer may wait for its loop closer.
+  [[nodiscard]] StageClock::Id culprit_of(StageClock::Id stage) const;
+
   StageClock clock;
   HostStages host{clock};
   StageClock::Id tick = StageClock::kHost;  // a whole one; its own time is what no stage accounts for
   Staged<Sensor> sensor;
   Staged<Localizer> localizer;
+  StageClock::Id loop_closer = StageClock::kHost;
+  std::shared_ptr<CallsUnderWay> loop_closer_calls;
   Staged<Mapper> mapper;
   Staged<Detector> detector;                  // may be none
   Staged<MarkerDetector> marker_detector;     // may be none

@@ -56,8 +56,9 @@ void MissionLoop::begin_check(std::shared_ptr<const MapSnapshot> before, const P
                               const std::optional<DoubtCause>& cause) {
   check_.emplace(OpenCheck{cause ? PoseCheck(rules_under_way()) : PoseCheck(), std::move(before), T_map_robot,
                            world_.time_s, cause});
-  perception_.draw_own_map(build_localizer(mission_, library_, {T_map_robot, own_frame(mission_.robot)}),
-                           build_map(mission_, library_, nullptr), *check_->before);
+  perception_.draw_own_map(
+      build_localizer(mission_, library_, {T_map_robot, own_frame(mission_.robot)}, modules_.loop_closer_calls),
+      build_map(mission_, library_, nullptr), *check_->before);
   finder_.emplace(std::shared_ptr<const OccupancyGrid>(check_->before, &check_->before->grid), mission_.robot);
   if (!cause) start_check_.emplace();
 }
@@ -163,7 +164,8 @@ void MissionLoop::find_itself() {
   localisation_->found_s = world_.time_s;
   localisation_->T_map_robot = T_map_robot;
   end_search();
-  const std::shared_ptr<Localizer> localizer = build_localizer(mission_, library_, {T_map_robot, kFoundUncertainty});
+  const std::shared_ptr<Localizer> localizer =
+      build_localizer(mission_, library_, {T_map_robot, kFoundUncertainty}, modules_.loop_closer_calls);
   if (options_.localise_in) {
     world_.T_map_start = T_map_local * world_.T_map_start;
     world_.exchange_map(perception_.settle(localizer), nullptr);

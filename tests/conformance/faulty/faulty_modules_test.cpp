@@ -59,6 +59,15 @@ TEST(FaultyModules, LocalizersFail) {
   faulty.expect_failure("FollowsAnErrorlessDrive", "keeps its state in a static");
 }
 
+TEST(FaultyModules, LoopClosersFail) {
+  const FaultySuite faulty("LoopCloserConformance");
+  faulty.expect_failure("FindsAScanWhereItIsWhereverItIsBelievedToBe", "believes the guess");
+  faulty.expect_failure("AUsedUpBudgetBeginsNoSubmap", "ignores its budget");
+  faulty.expect_failure("FindsAScanWhereItIsWhereverItIsBelievedToBe", "information without a heading");
+  faulty.expect_failure("ProposesSubmapsThatItWasGivenEachOnce", "proposes one twice");
+  faulty.expect_failure("TheSameCallsGiveTheSameProposals", "keeps its state in a static");
+}
+
 TEST(FaultyModules, SensorsFail) {
   const FaultySuite faulty("SensorConformance");
   faulty.expect_failure("StampsNeverGoBack", "time goes back");

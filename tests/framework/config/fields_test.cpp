@@ -333,5 +333,18 @@ TEST(ExactlyOneOf, RefusesNoneAndSeveral) {
             "m.yaml:2:1: a thing takes only one of a, b, found both \"b\" and \"a\"");
 }
 
+struct Renamed {
+  double length_m = 1.0;
+  static void describe(Fields<Renamed>& fields) {
+    fields.number("length_m", &Renamed::length_m, {0.0, 10.0}, "m", "how long");
+    fields.moved("width_m", "`frame.width_m`");
+  }
+};
+
+TEST(Fields, AKeyThatHasMovedSaysWhereItIsNow) {
+  EXPECT_EQ(error_of([] { (void)load_config<Renamed>(parse_config_text("{width_m: 2}", "a.yaml"), "door"); }),
+            "a.yaml:1:2: the key \"width_m\" in door is now `frame.width_m`");
+}
+
 }  // namespace
 }  // namespace cairn

@@ -60,6 +60,62 @@ TEST_F(MissionModulesTest, ACheckFindsEveryModuleThatIsWrong) {
   EXPECT_THAT(errors, ElementsAre(HasSubstr("no_localizer"), HasSubstr("no_step")));
 }
 
+class ClosingLocalizer : public still::Localizer {
+ public:
+  explicit ClosingLocalizer(std::shared_ptr<LoopCloser> taken) : closer(std::move(taken)) {}
+  const std::shared_ptr<LoopCloser> closer;
+};
+
+class CountedCloser : public LoopCloser {
+ public:
+  CountedCloser() { ++made; }
+  std::vector<LoopProposal> propose(const LoopQuery&, const Budget&) override { return {}; }
+  static inline int made = 0;
+};
+
+// A library with a localizer that takes a loop closer, and one of that kind.
+ModuleLibrary library_that_closes() {
+  Registrar registrar;
+  registrar.add<Localizer, NoConfig>("closing_localizer", "takes a loop closer",
+                                     [](const NoConfig&, const LocalizerContext& context) {
+                                       return std::make_unique<ClosingLocalizer>(context.loop_closer());
+                                     });
+  registrar.add<LoopCloser, NoConfig>("counted_closer", "finds none", [](const NoConfig&, const ModuleContext&) {
+    return std::make_unique<CountedCloser>();
+  });
+  ModuleLibrary library = still::library();
+  library.add("(the test's own)", registrar);
+  return library;
+}
+
+TEST_F(MissionModulesTest, ALoopCloserIsMadeForALocalizerThatTakesItOnly) {
+  const ModuleLibrary library = library_that_closes();
+  mission_.config.loop_closer.name = "counted_closer";
+  CountedCloser::made = 0;
+  (void)build_modules(mission_, library);
+  EXPECT_EQ(CountedCloser::made, 0);
+  mission_.config.localizer.name = "closing_localizer";
+  const MissionModules built = build_modules(mission_, library);
+  EXPECT_EQ(CountedCloser::made, 1);
+  EXPECT_NE(dynamic_cast<const ClosingLocalizer&>(*built.localizer).closer, nullptr);
+}
+
+TEST_F(MissionModulesTest, ADefaultLoopCloserThatIsNotInstalledIsMissedByWhoTakesItOnly) {
+  const ModuleLibrary library = library_that_closes();
+  EXPECT_TRUE(check_modules(mission_, library).empty());
+  (void)build_modules(mission_, library);
+  mission_.config.localizer.name = "closing_localizer";
+  EXPECT_THAT(check_modules(mission_, library), ElementsAre(HasSubstr("unknown loop_closer plugin")));
+  EXPECT_THROW((void)build_modules(mission_, library), ConfigError);
+}
+
+TEST_F(MissionModulesTest, ACheckMakesANamedLoopCloserWhoeverTakesIt) {
+  mission_.config.loop_closer.name = "no_closer";
+  EXPECT_THAT(check_modules(mission_, library_that_closes()), ElementsAre(HasSubstr("no_closer")));
+  mission_.config.localizer.name = "closing_localizer";
+  EXPECT_THAT(check_modules(mission_, library_that_closes()), ElementsAre(HasSubstr("no_closer"))) << "reported once";
+}
+
 class FaultySensor : public Sensor {
  public:
   explicit FaultySensor(bool is_simulated) : is_simulated_(is_simulated) {}

@@ -118,5 +118,27 @@ TEST(Plausibility, ADetectionOutsideOfTheMapIsAFault) {
   EXPECT_EQ(fault_of(matching, grid), "returned a detection that is not finite");
 }
 
+TEST(Plausibility, ALoopThatCannotBeIsAFault) {
+  LoopProposal good;
+  good.T_submap_node = {3.0, -2.0, 1.0};
+  EXPECT_EQ(fault_of(good, 1), "");
+  EXPECT_EQ(fault_of(good, 0), "proposed a loop with submap 1 of 0");
+  LoopProposal bad = good;
+  bad.T_submap_node.theta_rad = kNan;
+  EXPECT_EQ(fault_of(bad, 1), "proposed a loop that is not finite");
+  bad = good;
+  bad.score = kNan;
+  EXPECT_EQ(fault_of(bad, 1), "proposed a loop that is not finite");
+  bad = good;
+  bad.T_submap_node.x_m = 1e9;
+  EXPECT_EQ(fault_of(bad, 1), "proposed a loop over 1e+09 m");
+  bad = good;
+  bad.information(0, 0) = -1.0;
+  EXPECT_EQ(fault_of(bad, 1), "proposed a loop whose information is none");
+  bad = good;
+  bad.information(0, 1) = 0.5;
+  EXPECT_EQ(fault_of(bad, 1), "proposed a loop whose information is none");
+}
+
 }  // namespace
 }  // namespace cairn

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 
 #include "tests/plugins/submap_graph/driven_ring.hpp"
+#include "tests/plugins/submap_graph/usual_closer.hpp"
 
 namespace cairn::submap_graph {
 namespace {
@@ -14,8 +17,8 @@ constexpr int kBeams = 120;
 
 constexpr double kPeriod_s = 0.5;
 
-LaserGraph driven(const std::vector<DrivenScan>& drive, const Config& config = {}) {
-  LaserGraph graph(config, drive.front().T_map_robot);
+LaserGraph driven(const std::vector<DrivenScan>& drive, std::shared_ptr<LoopCloser> closer = usual_closer()) {
+  LaserGraph graph({}, drive.front().T_map_robot, std::move(closer));
   const std::vector<DrawnWall> walls = ring_walls();
   double stamp_s = 0.0;
   std::uint64_t seed = 0;
@@ -27,7 +30,7 @@ LaserGraph driven(const std::vector<DrivenScan>& drive, const Config& config = {
 // Where each scan was put when it came, the machine being slow or not.
 std::vector<Pose2> first_answers(const std::vector<DrivenScan>& drive, double period_s,
                                  std::chrono::microseconds pause) {
-  LaserGraph graph({}, drive.front().T_map_robot);
+  LaserGraph graph({}, drive.front().T_map_robot, usual_closer());
   const std::vector<DrawnWall> walls = ring_walls();
   double stamp_s = 0.0;
   std::uint64_t seed = 0;
@@ -72,7 +75,7 @@ TEST(LaserGraph, FewEchoesThatAreGatheredOverTheWayCloseLoopsToo) {
   config.echo_sigma_m = 0.1;
   config.odometry_ratio = 0.05;
   config.odometry_rad_per_m = radians(2.0);
-  LaserGraph graph(config, drive.front().T_map_robot);
+  LaserGraph graph(config, drive.front().T_map_robot, usual_closer());
   const std::vector<DrawnWall> walls = ring_walls();
   std::uint64_t seed = 0;
   for (const DrivenScan& scan : drive)
@@ -102,7 +105,7 @@ TEST(LaserGraph, ACorrectionIsTakenAFixedTimeAfterItsSearchBegan) {
   std::vector<std::size_t> corrected_at;
   for (const double period_s : {0.5, 0.05}) {
     const std::vector<DrivenScan> drive = ring_drive(2, radians(3.0), 0.05);
-    LaserGraph graph({}, drive.front().T_map_robot);
+    LaserGraph graph({}, drive.front().T_map_robot, usual_closer());
     const std::vector<DrawnWall> walls = ring_walls();
     std::size_t scans = 0;
     while (graph.revision() == 0 && scans < drive.size()) {
@@ -123,8 +126,50 @@ TEST(LaserGraph, StampsThatStandStillKeepNoAnswerBack) {
             ring_drive(3, radians(3.0), 0.05).size());
 }
 
+class ThrowingCloser : public LoopCloser {
+ public:
+  std::vector<LoopProposal> propose(const LoopQuery& query, const Budget&) override {
+    if (!query.submaps.empty()) throw std::runtime_error("no such place");
+    return {};
+  }
+};
+
+TEST(LaserGraph, WhatALoopCloserThrowsInItsThreadComesOutWithAScan) {
+  EXPECT_THROW((void)driven(ring_drive(2, 0.0, 0.0), std::make_shared<ThrowingCloser>()), std::runtime_error);
+}
+
+// Searches until nobody waits any more.
+class EndlessCloser : public LoopCloser {
+ public:
+  std::vector<LoopProposal> propose(const LoopQuery&, const Budget& budget) override {
+    const auto at_most = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!budget.exhausted() && std::chrono::steady_clock::now() < at_most)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    was_cancelled = budget.exhausted();
+    return {};
+  }
+  std::atomic<bool> was_cancelled = false;
+};
+
+TEST(LaserGraph, ItsEndCancelsTheSearchUnderWay) {
+  const auto closer = std::make_shared<EndlessCloser>();
+  {
+    LaserGraph graph({}, {1.0, 1.0, 0.0}, closer);
+    graph.add(seen_from(ring_walls(), {1.0, 1.0, 0.0}, kBeams, 0.01, 1), {}, kPeriod_s);
+  }
+  EXPECT_TRUE(closer->was_cancelled);
+}
+
+TEST(LaserGraph, WithoutACloserNoLoopCloses) {
+  LaserGraph graph = driven(ring_drive(2, radians(3.0), 0.05), nullptr);
+  while (graph.finish_part()) {
+  }
+  EXPECT_TRUE(graph.graph().closures().empty());
+  EXPECT_EQ(graph.revision(), 0U);
+}
+
 TEST(LaserGraph, WithoutEchoesItFollowsOdometry) {
-  LaserGraph graph({}, {1.0, 2.0, 0.5});
+  LaserGraph graph({}, {1.0, 2.0, 0.5}, usual_closer());
   Pose2 T_odom_robot;
   for (int i = 0; i < 30; ++i) {
     graph.add({}, T_odom_robot, kPeriod_s * i);
@@ -141,7 +186,7 @@ TEST(LaserGraph, WithoutEchoesItFollowsOdometry) {
 
 TEST(LaserGraph, ARobotThatStandsStillAddsNoNodes) {
   const std::vector<DrawnWall> walls = ring_walls();
-  LaserGraph graph({}, {1.0, 1.0, 0.0});
+  LaserGraph graph({}, {1.0, 1.0, 0.0}, usual_closer());
   for (std::uint64_t seed = 1; seed <= 50; ++seed)
     graph.add(seen_from(walls, {1.0, 1.0, 0.0}, kBeams, 0.01, seed), {}, kPeriod_s * static_cast<double>(seed));
   EXPECT_EQ(graph.graph().size(), 1U);

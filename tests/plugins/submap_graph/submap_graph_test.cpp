@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/plugins/submap_graph/driven_ring.hpp"
+#include "tests/plugins/submap_graph/usual_closer.hpp"
 
 namespace cairn::submap_graph {
 namespace {
@@ -33,7 +34,7 @@ TEST(GatherPoints, TakesEchoesOfNarrowBeamsWithinReachOneASquare) {
 TEST(SubmapGraph, CorrectsThePastWhenALoopCloses) {
   const std::vector<DrivenScan> drive = ring_drive(1, radians(3.0), 0.05);
   const std::vector<DrawnWall> walls = ring_walls();
-  SubmapGraph localizer({}, drive.front().T_map_robot);
+  SubmapGraph localizer({}, drive.front().T_map_robot, usual_closer());
   std::uint64_t seed = 0;
   for (const DrivenScan& scan : drive) {
     Observation seen;
@@ -57,7 +58,7 @@ TEST(SubmapGraph, CorrectsThePastWhenALoopCloses) {
 TEST(SubmapGraph, PartsOfALasersRoundAreOneScan) {
   Config config;
   config.sweep_s = 0.3;
-  SubmapGraph localizer(config, {1.0, 1.0, 0.0});
+  SubmapGraph localizer(config, {1.0, 1.0, 0.0}, usual_closer());
   const std::vector<DrawnWall> walls = ring_walls();
   Pose2 truth{1.0, 1.0, 0.0};
   Pose2 T_odom_robot;
@@ -80,13 +81,31 @@ TEST(SubmapGraph, PartsOfALasersRoundAreOneScan) {
 }
 
 TEST(SubmapGraph, OdometryThatIsNotFiniteIsAStepOfNone) {
-  SubmapGraph localizer({}, {1.0, 2.0, 0.0});
+  SubmapGraph localizer({}, {1.0, 2.0, 0.0}, nullptr);
   Observation seen;
   (void)localizer.update(seen, nothing_known());
   seen.T_odom_robot = {std::nan(""), 0.0, 0.0};
   EXPECT_EQ(localizer.update(seen, nothing_known()).T_map_robot, (Pose2{1.0, 2.0, 0.0}));
   seen.T_odom_robot = {0.1, 0.0, 0.0};
   EXPECT_NEAR(localizer.update(seen, nothing_known()).T_map_robot.x_m, 1.1, 1e-9);
+}
+
+std::string error_of(const std::string& settings) {
+  try {
+    (void)load_config<Config>(parse_config_text(settings, "m.yaml"), "plugin submap_graph");
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SubmapGraphConfig, SettingsOfTheSearchForLoopsSayWhereTheyAreNow) {
+  EXPECT_EQ(error_of("{min_score: 0.6}"),
+            "m.yaml:1:2: the key \"min_score\" in plugin submap_graph is now `loop_closer.min_score`");
+  EXPECT_EQ(error_of("{field_sigma_m: 0.15}"),
+            "m.yaml:1:2: the key \"field_sigma_m\" in plugin submap_graph is now `loop_closer.field_sigma_m`, and here "
+            "`search_sigma_m` for the search around odometry");
+  EXPECT_EQ(error_of("{submap_m: 8}"), "no error");
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ class PluginsNew : public testing::Test {
 };
 
 TEST_F(PluginsNew, WritesAWholeProjectOfEveryKindWithoutAnyMarkLeft) {
-  for (const std::string kind : {"sensor", "localizer", "map", "detector", "marker_detector", "planner", "path_planner",
-                                 "route_planner", "controller", "behaviour"}) {
+  for (const std::string kind : {"sensor", "localizer", "loop_closer", "map", "detector", "marker_detector", "planner",
+                                 "path_planner", "route_planner", "controller", "behaviour"}) {
     std::filesystem::remove_all(project_);
     const Finished finished = make(kind, "my_" + kind);
     ASSERT_EQ(finished.exit_status, 0) << finished.err;

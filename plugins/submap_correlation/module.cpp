@@ -1,0 +1,17 @@
+#include "framework/contracts/module.hpp"
+
+#include "plugins/submap_correlation/submap_correlation.hpp"
+
+namespace {
+
+void register_module(cairn::Registrar& registrar) {
+  using cairn::submap_correlation::Config;
+  using cairn::submap_correlation::SubmapCorrelation;
+  registrar.add<cairn::LoopCloser, Config>(
+      "submap_correlation", "searches a laser's scan or gathered echoes of sonars in the submaps near by",
+      [](const Config& config, const cairn::ModuleContext&) { return std::make_unique<SubmapCorrelation>(config); });
+}
+
+}  // namespace
+
+CAIRN_MODULE(register_module)
