@@ -2,17 +2,30 @@
 
 namespace cairn::submap_graph {
 
+BackEnd::BackEnd(const Config& config, const Compass& compass) : config_(config), closer_(config), headings_(compass) {
+  if (config.gather_m > 0.0) graph_.expect_scale(config.odometry_scale_ratio);
+}
+
 Correction BackEnd::add(const Stretch& stretch) {
   for (const NewNode& node : stretch.nodes) add(node);
   for (const Closure& closure : stretch.closures) graph_.add(closure);
   const bool is_due = graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
-  return correction(is_due && graph_.closures().size() > solved_closures_ && solve());
+  return correction(is_due && is_news() && solve());
+}
+
+// Of closures; where single scans say nothing of the heading, of the compass too.
+bool BackEnd::is_news() const {
+  return graph_.closures().size() > solved_closures_ || (config_.gather_m > 0.0 && graph_.has_headings());
 }
 
 void BackEnd::add(const NewNode& node) {
   const std::size_t number =
       graph_.add_node(graph_.size() == 0 ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
-  for (const LocalMap::Tie& tie : node.ties) graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information);
+  for (const LocalMap::Tie& tie : node.ties) {
+    const bool is_odometry = config_.gather_m > 0.0;
+    graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information, is_odometry);
+  }
+  headings_.add(node.compass_rad, number == 0 ? 0.0 : node.T_last_node.position().norm(), graph_);
   finished_.insert(finished_.end(), node.finished.begin(), node.finished.end());
   closer_.add_node(node.points_m, node.T_local_node);
   for (const Closure& closure : closer_.close(number, graph_, finished_)) graph_.add(closure);
@@ -23,7 +36,7 @@ void BackEnd::search_again(std::size_t node, std::span<const std::shared_ptr<con
 }
 
 Correction BackEnd::solve_last() {
-  return correction(!graph_.closures().empty() && solve());
+  return correction((!graph_.closures().empty() || is_news()) && solve());
 }
 
 bool BackEnd::solve() {

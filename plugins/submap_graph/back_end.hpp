@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "maps/submaps/submap.hpp"
 #include "plugins/submap_graph/closures.hpp"
+#include "plugins/submap_graph/compass_headings.hpp"
 #include "plugins/submap_graph/config.hpp"
 #include "plugins/submap_graph/local_map.hpp"
 #include "plugins/submap_graph/tied_graph.hpp"
@@ -23,6 +25,7 @@ struct NewNode {
   std::vector<Point> points_m;  // that closures are searched with
   std::vector<LocalMap::Tie> ties;
   FinishedSubmaps finished;  // with this node
+  std::optional<double> compass_rad{};
 };
 
 // A piece of the way.
@@ -39,7 +42,7 @@ struct Correction {
 
 class BackEnd {
  public:
-  explicit BackEnd(const Config& config) : config_(config), closer_(config) {}
+  explicit BackEnd(const Config& config, const Compass& compass = {});
 
   Correction add(const Stretch& stretch);
   // Searches closures of a node again, with all submaps and small windows.
@@ -51,12 +54,14 @@ class BackEnd {
 
  private:
   void add(const NewNode& node);
+  [[nodiscard]] bool is_news() const;
   [[nodiscard]] bool solve();
   [[nodiscard]] Correction correction(bool is_moved) const;
 
   Config config_;
   TiedGraph graph_;
   Closer closer_;
+  CompassHeadings headings_;
   FinishedSubmaps finished_;
   std::size_t solved_at_node_ = 0;
   std::size_t solved_closures_ = 0;
