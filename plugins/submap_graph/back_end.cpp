@@ -3,7 +3,7 @@
 namespace cairn::submap_graph {
 
 BackEnd::BackEnd(const Config& config, const Compass& compass) : config_(config), closer_(config), headings_(compass) {
-  if (config.gather_m > 0.0) graph_.expect_scale(config.odometry_scale_ratio);
+  if (config.gather_m > 0.0) graph_.expect_odometry(config.odometry_length_bias_ratio, config.odometry_turn_bias_ratio);
 }
 
 Correction BackEnd::add(const Stretch& stretch) {
@@ -21,10 +21,9 @@ bool BackEnd::is_news() const {
 void BackEnd::add(const NewNode& node) {
   const std::size_t number =
       graph_.add_node(graph_.size() == 0 ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
-  for (const LocalMap::Tie& tie : node.ties) {
-    const bool is_odometry = config_.gather_m > 0.0;
+  const bool is_odometry = config_.gather_m > 0.0;
+  for (const LocalMap::Tie& tie : node.ties)
     graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information, is_odometry);
-  }
   headings_.add(node.compass_rad, number == 0 ? 0.0 : node.T_last_node.position().norm(), graph_);
   finished_.insert(finished_.end(), node.finished.begin(), node.finished.end());
   closer_.add_node(node.points_m, node.T_local_node);

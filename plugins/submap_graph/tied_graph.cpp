@@ -52,9 +52,9 @@ void TiedGraph::expect_compass(double bias_rad, double local_bias_rad, double lo
   graph_.expected.local_kept_ratio = local_kept_ratio;
 }
 
-void TiedGraph::expect_scale(double ratio) {
-  graph_.expected.length_ratio = ratio;
-  graph_.expected.turn_ratio = ratio;
+void TiedGraph::expect_odometry(double length_ratio, double turn_ratio) {
+  graph_.expected.length_ratio = length_ratio;
+  graph_.expected.turn_ratio = turn_ratio;
 }
 
 void TiedGraph::add(const Closure& closure) {

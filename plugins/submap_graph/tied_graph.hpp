@@ -31,7 +31,7 @@ class TiedGraph {
   void add_heading(const HeadingPrior& heading) { graph_.headings.push_back(heading); }
   void expect_compass(double bias_rad, double local_bias_rad, double local_kept_ratio);
   // Of lengths and turns that the wheels count.
-  void expect_scale(double ratio);
+  void expect_odometry(double length_ratio, double turn_ratio);
   // Finds the poses that fit the ties and the closures best. Closures that do not fit are left out of it, the worst
   // first, until they do. When ties do not fit any more, or newer closures push out earlier ones, the closures since
   // the last solution are given up, and nothing has moved. Whether poses have moved.
