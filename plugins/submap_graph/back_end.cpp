@@ -27,11 +27,20 @@ void BackEnd::add(const NewNode& node) {
   headings_.add(node.compass_rad, number == 0 ? 0.0 : node.T_last_node.position().norm(), graph_);
   finished_.insert(finished_.end(), node.finished.begin(), node.finished.end());
   closer_.add_node(node.points_m, node.T_local_node);
-  for (const Closure& closure : closer_.close(number, graph_, finished_)) graph_.add(closure);
+  for (const Closure& closure : closer_.close(number, graph_, finished_)) add_found(closure);
+}
+
+// Echoes of wide beams as points on their axes fit each other better than they are known.
+void BackEnd::add_found(Closure closure) {
+  constexpr double kGatheredFloor_m = 0.1;
+  constexpr double kGatheredFloor_rad = radians(2.0);
+  if (config_.gather_m > 0.0)
+    closure.information = with_floor(closure.information, kGatheredFloor_m, kGatheredFloor_rad);
+  graph_.add(closure);
 }
 
 void BackEnd::search_again(std::size_t node, std::span<const std::shared_ptr<const Submap>> submaps) {
-  for (const Closure& closure : closer_.close_again(node, graph_, submaps)) graph_.add(closure);
+  for (const Closure& closure : closer_.close_again(node, graph_, submaps)) add_found(closure);
 }
 
 Correction BackEnd::solve_last() {
