@@ -66,11 +66,11 @@ LeftOutFit fit_of(const PoseEdge& edge, bool is_part, const Solver& solver, std:
 std::vector<LeftOutFit> left_out_fits(const PoseGraph& graph, std::span<const PoseEdge> edges,
                                       const std::vector<bool>& is_part, const std::vector<bool>& is_asked,
                                       const std::vector<Pose2>& T_map_node) {
-  PoseGraph whole{T_map_node, graph.edges, graph.headings};
+  PoseGraph whole{T_map_node, graph.edges, graph.headings, graph.expected, graph.errors};
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (is_part[i]) whole.edges.push_back(edges[i]);
   NormalEquations equations(whole);
-  equations.fill(T_map_node);
+  equations.fill(T_map_node, graph.errors);
   const Solver solver(equations.hessian());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<LeftOutFit> fits(edges.size(), {kInfinity, -kInfinity});

@@ -38,6 +38,14 @@ class TwoRowSystem {
   Eigen::VectorXd right_;
 };
 
+// The step of an edge, by what the sensors say too much.
+Pose2 step_of(const PoseEdge& edge, const SensorErrors& errors) {
+  if (!edge.is_odometry) return edge.T_from_to;
+  const double length = 1.0 + errors.length_ratio;
+  return {edge.T_from_to.x_m / length, edge.T_from_to.y_m / length,
+          edge.T_from_to.theta_rad / (1.0 + errors.turn_ratio)};
+}
+
 // Each heading as a free vector (cosine, sine), of which only the direction is taken in the end.
 std::optional<std::vector<double>> headings_of(const PoseGraph& graph) {
   TwoRowSystem system(graph.T_map_node.size());
@@ -45,10 +53,10 @@ std::optional<std::vector<double>> headings_of(const PoseGraph& graph) {
     const double information = edge.information(2, 2);
     system.add_block(edge.from, edge.from, information * Eigen::Matrix2d::Identity());
     system.add_block(edge.to, edge.to, information * Eigen::Matrix2d::Identity());
-    system.add_block(edge.to, edge.from, -information * rotation(edge.T_from_to.theta_rad));
+    system.add_block(edge.to, edge.from, -information * rotation(step_of(edge, graph.errors).theta_rad));
   }
   for (const HeadingPrior& prior : graph.headings)
-    system.tie(prior.node, unit_vector(prior.heading_rad), prior.information);
+    system.tie(prior.node, unit_vector(prior.heading_rad - bias_of(prior, graph.errors)), prior.information);
   if (graph.headings.empty()) system.tie(0, graph.T_map_node[0].direction(), kAnchor);
   const auto vectors = system.solved();
   if (!vectors) return std::nullopt;
@@ -64,7 +72,7 @@ std::optional<std::vector<double>> headings_of(const PoseGraph& graph) {
 std::optional<Eigen::VectorXd> positions_of(const PoseGraph& graph, const std::vector<double>& heading_rad) {
   TwoRowSystem system(graph.T_map_node.size());
   for (const PoseEdge& edge : graph.edges) {
-    const Point step = rotation(heading_rad[edge.from]) * edge.T_from_to.position();
+    const Point step = rotation(heading_rad[edge.from]) * step_of(edge, graph.errors).position();
     const Eigen::Matrix2d R_map_z = rotation(heading_rad[edge.from] + edge.T_from_to.theta_rad);
     const Eigen::Matrix2d information = R_map_z * edge.information.topLeftCorner<2, 2>() * R_map_z.transpose();
     system.add_block(edge.from, edge.from, information);

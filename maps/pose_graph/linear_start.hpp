@@ -9,7 +9,8 @@
 
 namespace cairn {
 
-// Node 0 stays where it is. Independent of the other poses so far. None when edges do not connect the graph.
+// Node 0 stays where it is. Independent of the other poses so far; the sensors' errors are as believed so
+// far. None when edges do not connect the graph.
 [[nodiscard]] std::optional<std::vector<Pose2>> linear_start(const PoseGraph& graph);
 
 }  // namespace cairn

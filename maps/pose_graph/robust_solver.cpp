@@ -59,14 +59,14 @@ class RobustSolver {
   };
 
   [[nodiscard]] PoseGraphSolution solved(const Weights& weights, std::vector<Pose2> T_map_node, int iterations,
-                                         bool linear_start) const;
+                                         bool linear_start);
   [[nodiscard]] std::vector<bool> fitting(const std::vector<Pose2>& T_map_node) const;
-  [[nodiscard]] std::vector<Pose2> graduated(const std::vector<bool>& is_part, std::vector<Pose2> T_map_node) const;
-  [[nodiscard]] State settled(std::vector<Pose2> T_map_node) const;
+  [[nodiscard]] std::vector<Pose2> graduated(const std::vector<bool>& is_part, std::vector<Pose2> T_map_node);
+  [[nodiscard]] State settled(std::vector<Pose2> T_map_node);
   [[nodiscard]] Turn turn_of(const State& state);
   [[nodiscard]] RobustSolution grown(State state);
 
-  const PoseGraph& graph_;
+  PoseGraph graph_;  // with the sensors' errors as last found
   std::span<const PoseEdge> doubtful_;
   const RobustSettings& settings_;
   const std::function<bool()>& cancelled_;
@@ -75,9 +75,9 @@ class RobustSolver {
 };
 
 PoseGraphSolution RobustSolver::solved(const Weights& weights, std::vector<Pose2> T_map_node, int iterations,
-                                       bool linear_start) const {
+                                       bool linear_start) {
   constexpr double kNone = 1e-9;
-  PoseGraph whole{std::move(T_map_node), graph_.edges, graph_.headings};
+  PoseGraph whole{std::move(T_map_node), graph_.edges, graph_.headings, graph_.expected, graph_.errors};
   for (std::size_t i = 0; i < doubtful_.size(); ++i) {
     if (weights[i] <= kNone) continue;
     whole.edges.push_back(doubtful_[i]);
@@ -86,7 +86,9 @@ PoseGraphSolution RobustSolver::solved(const Weights& weights, std::vector<Pose2
   PoseGraphSettings settings = settings_.solver;
   settings.max_iterations = std::min(iterations, settings.max_iterations);
   settings.linear_start = linear_start;
-  return solve(whole, settings, cancelled_);
+  PoseGraphSolution solution = solve(whole, settings, cancelled_);
+  graph_.errors = solution.errors;
+  return solution;
 }
 
 std::vector<bool> RobustSolver::fitting(const std::vector<Pose2>& T_map_node) const {
@@ -95,7 +97,7 @@ std::vector<bool> RobustSolver::fitting(const std::vector<Pose2>& T_map_node) co
   return fits;
 }
 
-std::vector<Pose2> RobustSolver::graduated(const std::vector<bool>& is_part, std::vector<Pose2> T_map_node) const {
+std::vector<Pose2> RobustSolver::graduated(const std::vector<bool>& is_part, std::vector<Pose2> T_map_node) {
   T_map_node = solved(weights_of(is_part), std::move(T_map_node), settings_.solver.max_iterations, true).T_map_node;
   double worst = 0.0;
   for (std::size_t i = 0; i < doubtful_.size(); ++i)
@@ -116,7 +118,7 @@ std::vector<Pose2> RobustSolver::graduated(const std::vector<bool>& is_part, std
   return T_map_node;
 }
 
-RobustSolver::State RobustSolver::settled(std::vector<Pose2> T_map_node) const {
+RobustSolver::State RobustSolver::settled(std::vector<Pose2> T_map_node) {
   State state;
   state.is_believed = fitting(T_map_node);
   for (int i = 0; i < kMaxSettlings; ++i) {
@@ -178,13 +180,13 @@ RobustSolution RobustSolver::grown(State state) {
   state.solution = solved(weights_of(state.is_believed), std::move(state.solution.T_map_node),
                           settings_.solver.max_iterations, false);
   return {std::move(state.solution.T_map_node), std::move(state.is_believed), state.solution.chi2,
-          is_settled && state.solution.converged};
+          is_settled && state.solution.converged, std::move(state.solution.errors)};
 }
 
 }  // namespace
 
 DividedGraph odometry_and_closures(const PoseGraph& graph) {
-  DividedGraph divided{{graph.T_map_node, {}, graph.headings}, {}};
+  DividedGraph divided{{graph.T_map_node, {}, graph.headings, graph.expected, graph.errors}, {}};
   std::vector<bool> has_step(graph.T_map_node.size(), false);
   for (const PoseEdge& edge : graph.edges) {
     const bool is_step = edge.to == edge.from + 1 && !has_step[edge.from];

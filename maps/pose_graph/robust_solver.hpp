@@ -42,6 +42,7 @@ struct RobustSolution {
   std::vector<bool> is_believed;  // of the doubtful edges
   double chi2 = 0.0;              // of the trusted edges and the believed ones
   bool converged = false;
+  SensorErrors errors;
 };
 
 // The graph's nodes are in the order of the way, and its edges connect it. Throws and is cancelled as solve().

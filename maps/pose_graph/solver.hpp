@@ -1,5 +1,6 @@
 // Finds the poses by which the chi2 of a pose graph is least: Levenberg and Marquardt from the better of a linear start
-// and the poses so far, with a sparse Cholesky decomposition. Every edge is believed (robust_solver.hpp: not all).
+// and the poses so far, with a sparse Cholesky decomposition, and with them the errors of the sensors that the graph
+// expects. Every edge is believed (robust_solver.hpp: not all).
 // Deterministic.
 #pragma once
 
@@ -18,15 +19,20 @@ struct PoseGraphSettings {
 
 struct PoseGraphSolution {
   std::vector<Pose2> T_map_node;
+  SensorErrors errors;
   double chi2 = 0.0;
   int iterations = 0;  // linear systems solved
   bool converged = false;
 };
 
 // Node 0 stays where it is, but for its heading when the graph has headings. Throws std::invalid_argument on an edge or
-// heading of a node that is not there, on values that are not finite, on a negative information. `cancelled` is asked
-// before each linear system; the best so far is returned then.
+// heading of a node that is not there, on groups that are numbered beyond the headings, on values that are not finite,
+// on a negative information. `cancelled` is asked before each linear system; the best so far is returned then.
 [[nodiscard]] PoseGraphSolution solve(const PoseGraph& graph, const PoseGraphSettings& settings = {},
                                       const std::function<bool()>& cancelled = {});
+
+// Standard deviations of the errors that are looked for, in the order of ErrorRows: given all measurements. None when
+// the graph does not determine its poses.
+[[nodiscard]] std::vector<double> deviations_of(const PoseGraph& graph, const PoseGraphSolution& solution);
 
 }  // namespace cairn

@@ -110,6 +110,7 @@ void Config::describe(Fields<Config>& fields) {
                  "each cone; 0: the scan itself");
   fields.angle("sonar_half_beam_deg", &Config::sonar_half_beam_rad, {0.1, 90}, "half the width of such a cone");
   fields.number("sonar_max_m", &Config::sonar_max_m, {0.2, 1000.0}, "m", "longest range of such a sonar");
+  fields.group("worsen", &Config::worsen, "for trials: the log's odometry made worse, as by worn wheels");
 }
 
 PluginChoice reader_of(const std::filesystem::path& file, const Budget& budget) {
@@ -144,6 +145,7 @@ double longest_echo_m(Sensor& log, double longest_m, const Budget& budget) {
 
 SensorStep LaserLog::next(const Budget& budget) {
   SensorStep step = source_->next(budget);
+  step.observation.T_odom_robot = odometry_.next(step.observation.T_odom_robot);
   // Nearer than a laser measures is a fault of the reading, often written as 0.
   for (RangeReading& reading : step.observation.ranges)
     if (reading.range_m > longest_m_ || reading.range_m < reading.min_m)

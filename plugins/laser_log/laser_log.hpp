@@ -13,7 +13,8 @@
 // measures. Bad lines are skipped and counted.
 //
 // With `sonars` above 0 each scan becomes the readings that so many sonars spread over the laser's field might have
-// had: derived data (plugins/common/logs/derived_sonar.hpp). Readings of wide beams stay as they are.
+// had: derived data (plugins/common/logs/derived_sonar.hpp). Readings of wide beams stay as they are. With
+// `worsen` the odometry becomes that of worn wheels.
 #pragma once
 
 #include <filesystem>
@@ -22,6 +23,7 @@
 
 #include "framework/config/fields.hpp"
 #include "framework/contracts/sensor.hpp"
+#include "plugins/laser_log/worsened_odometry.hpp"
 
 namespace cairn::laser_log {
 
@@ -31,6 +33,7 @@ struct Config {
   int sonars = 0;
   double sonar_half_beam_rad = radians(7.5);
   double sonar_max_m = 5.0;
+  WornWheels worsen;
 
   static void describe(Fields<Config>& fields);
 };
@@ -45,7 +48,7 @@ struct Config {
 class LaserLog final : public Sensor {
  public:
   LaserLog(std::shared_ptr<Sensor> source, double longest_m, const Config& config = {})
-      : source_(std::move(source)), longest_m_(longest_m), config_(config) {}
+      : source_(std::move(source)), longest_m_(longest_m), config_(config), odometry_(config.worsen) {}
 
   SensorStep next(const Budget& budget) override;
   [[nodiscard]] std::optional<Pose2> start() const override { return source_->start(); }
@@ -55,6 +58,7 @@ class LaserLog final : public Sensor {
   std::shared_ptr<Sensor> source_;
   double longest_m_;
   Config config_;
+  WorsenedOdometry odometry_;
 };
 
 }  // namespace cairn::laser_log

@@ -1,30 +1,56 @@
 #include "plugins/submap_graph/back_end.hpp"
 
+#include <utility>
+
+#include "maps/pose_graph/information.hpp"
+
 namespace cairn::submap_graph {
+
+BackEnd::BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const Compass& compass)
+    : config_(config), closures_(config, std::move(closer)), headings_(compass) {
+  if (config.gather_m > 0.0) graph_.expect_odometry(config.odometry_length_bias_ratio, config.odometry_turn_bias_ratio);
+}
 
 Correction BackEnd::add(const Stretch& stretch) {
   for (const NewNode& node : stretch.nodes) add(node);
   for (const Closure& closure : stretch.closures) graph_.add(closure);
   const bool is_due = graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
-  return correction(is_due && graph_.closures().size() > solved_closures_ && solve());
+  return correction(is_due && is_news() && solve());
+}
+
+// Of closures; where single scans say nothing of the heading, of the compass too.
+bool BackEnd::is_news() const {
+  return graph_.closures().size() > solved_closures_ || (config_.gather_m > 0.0 && graph_.has_headings());
 }
 
 void BackEnd::add(const NewNode& node) {
   const std::size_t number =
       graph_.add_node(graph_.size() == 0 ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
-  for (const LocalMap::Tie& tie : node.ties) graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information);
+  const bool is_odometry = config_.gather_m > 0.0;
+  for (const LocalMap::Tie& tie : node.ties)
+    graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information, is_odometry);
+  headings_.add(node.compass_rad, number == 0 ? 0.0 : node.T_last_node.position().norm(), graph_);
   finished_.insert(finished_.end(), node.finished.begin(), node.finished.end());
   closures_.add_node(node.points_m, node.T_local_node);
   const Budget budget{.cancel = &is_cancelled_};
-  for (const Closure& closure : closures_.close(number, graph_, finished_, budget)) graph_.add(closure);
+  for (const Closure& closure : closures_.close(number, graph_, finished_, budget)) add_found(closure);
+}
+
+// Echoes of wide beams as points on their axes fit each other better than they are known.
+void BackEnd::add_found(Closure closure) {
+  constexpr double kGatheredFloor_m = 0.1;
+  constexpr double kGatheredFloor_rad = radians(2.0);
+  if (config_.gather_m > 0.0)
+    closure.information = with_floor(closure.information, kGatheredFloor_m, kGatheredFloor_rad);
+  graph_.add(closure);
 }
 
 void BackEnd::search_again(std::size_t node, std::span<const std::shared_ptr<const Submap>> submaps) {
-  for (const Closure& closure : closures_.close_again(node, graph_, submaps)) graph_.add(closure);
+  for (const Closure& closure : closures_.close_again(node, graph_, submaps)) add_found(closure);
 }
 
 Correction BackEnd::solve_last() {
-  return correction(!graph_.closures().empty() && solve());
+  return correction((!graph_.closures().empty() || is_news()) && solve());
 }
 
 bool BackEnd::solve() {

@@ -4,11 +4,13 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "maps/submaps/submap.hpp"
 #include "plugins/submap_graph/closures.hpp"
+#include "plugins/submap_graph/compass_headings.hpp"
 #include "plugins/submap_graph/config.hpp"
 #include "plugins/submap_graph/local_map.hpp"
 #include "plugins/submap_graph/tied_graph.hpp"
@@ -24,6 +26,7 @@ struct NewNode {
   std::vector<Point> points_m;  // that closures are searched with
   std::vector<LocalMap::Tie> ties;
   FinishedSubmaps finished;  // with this node
+  std::optional<double> compass_rad{};
 };
 
 // A piece of the way.
@@ -41,8 +44,7 @@ struct Correction {
 class BackEnd {
  public:
   // closer: may be null.
-  BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer)
-      : config_(config), closures_(config, std::move(closer)) {}
+  BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const Compass& compass = {});
 
   Correction add(const Stretch& stretch);
   // Searches closures of a node again, with all submaps and small windows.
@@ -56,6 +58,8 @@ class BackEnd {
 
  private:
   void add(const NewNode& node);
+  void add_found(Closure closure);
+  [[nodiscard]] bool is_news() const;
   [[nodiscard]] bool solve();
   [[nodiscard]] Correction correction(bool is_moved) const;
 
@@ -63,6 +67,7 @@ class BackEnd {
   TiedGraph graph_;
   Closures closures_;
   std::atomic<bool> is_cancelled_ = false;
+  CompassHeadings headings_;
   FinishedSubmaps finished_;
   std::size_t solved_at_node_ = 0;
   std::size_t solved_closures_ = 0;

@@ -27,6 +27,19 @@ void Config::describe(Fields<Config>& fields) {
                "standard deviation of a step's turn, each metre");
   fields.number("odometry_turn_ratio", &Config::odometry_rad_per_rad, {0.001, 10.0}, "",
                 "standard deviation of a step's turn, of the turn");
+  fields.number("odometry_turn_bias_ratio", &Config::odometry_turn_bias_ratio, {0.0, 1.0}, "",
+                "with gather_m: standard deviation of what the wheels count too much of each turn over the whole run; "
+                "it is found with the poses; 0: nothing");
+  fields.number("odometry_length_bias_ratio", &Config::odometry_length_bias_ratio, {0.0, 1.0}, "",
+                "the same of lengths; only where markers close the loops: the robot's own drawings are as much too "
+                "long as its way");
+  fields.flag("use_compass", &Config::use_compass, "the headings of the pose graph's nodes are tied to the compass");
+  fields.angle("min_compass_noise_deg", &Config::min_compass_noise_rad, {0.1, 90.0},
+               "standard deviation of a reading of the compass, at least: more where the robot's file says so");
+  fields.angle("compass_bias_deg", &Config::compass_bias_rad, {0.1, 180.0},
+               "standard deviation of the compass's bias of the whole run; it is found with the poses");
+  fields.angle("min_compass_local_bias_deg", &Config::min_compass_local_bias_rad, {0.1, 90.0},
+               "and of the bias that changes along the way, at least");
   fields.number("node_m", &Config::node_m, {0.01, 100.0}, "m", "distance between two nodes of the pose graph");
   fields.angle("node_deg", &Config::node_rad, {0.1, 180.0}, "or turn between them");
   fields.number("submap_m", &Config::submap_m, {0.1, 1000.0}, "m",

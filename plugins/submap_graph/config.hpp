@@ -23,6 +23,13 @@ struct Config {
   double odometry_ratio = 0.2;
   double odometry_rad_per_m = radians(10.0);
   double odometry_rad_per_rad = 0.1;
+  double odometry_turn_bias_ratio = 0.02;
+  double odometry_length_bias_ratio = 0.0;
+  // The compass.
+  bool use_compass = true;
+  double min_compass_noise_rad = radians(2.0);
+  double compass_bias_rad = radians(30.0);
+  double min_compass_local_bias_rad = radians(3.0);
   // Nodes and submaps.
   double node_m = 0.5;
   double node_rad = radians(15.0);

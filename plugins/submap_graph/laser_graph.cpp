@@ -20,19 +20,22 @@ Eigen::Matrix3d floored(const Eigen::Matrix3d& information) {
 
 }  // namespace
 
-LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer)
+LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer,
+                       const Compass& compass)
     : config_(config),
       local_map_(config),
       gathered_(config.gather_m),
       T_map_start_(T_map_start),
-      back_end_(std::make_unique<BackEnd>(config, std::move(closer))) {}
+      back_end_(std::make_unique<BackEnd>(config, std::move(closer), compass)) {}
 
 LaserGraph::~LaserGraph() {
   if (back_end_) back_end_->cancel();
 }
 
-Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s) {
+Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s,
+                      std::optional<double> compass_rad) {
   take_answer_when_due(stamp_s);
+  compass_rad_ = compass_rad;
   const Pose2 T_map_robot = place(points_m, T_odom_robot);
   T_odom_robot_ = T_odom_robot;
   if (!search_ && !stretch_.nodes.empty()) begin_search(stamp_s);
@@ -96,7 +99,8 @@ void LaserGraph::take_node(const Pose2& step, std::span<const Point> points_m, c
        T_local_node_,
        {searched.begin(), searched.end()},
        ties(step),
-       {known + static_cast<std::ptrdiff_t>(finished_), known + static_cast<std::ptrdiff_t>(local_map_.finished())}});
+       {known + static_cast<std::ptrdiff_t>(finished_), known + static_cast<std::ptrdiff_t>(local_map_.finished())},
+       compass_rad_});
   finished_ = local_map_.finished();
 }
 

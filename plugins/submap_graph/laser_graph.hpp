@@ -32,12 +32,14 @@ class LaserGraph {
   static constexpr int kAnswerAfterScans = 50;  // at the latest, whatever the stamps
 
   // closer: null: no loop is closed by a search.
-  LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer);
+  LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer,
+             const Compass& compass = {});
   LaserGraph(LaserGraph&&) = default;
   ~LaserGraph();
 
   // A scan as seen from the robot. Where the robot is.
-  Pose2 add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s);
+  Pose2 add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s,
+            std::optional<double> compass_rad = {});
   // Between two scans. Where the robot is, by odometry since the last one; there must have been one.
   Pose2 pass(const Pose2& T_odom_robot, double stamp_s);
   // Seen at the scan that was added last.
@@ -85,6 +87,7 @@ class LaserGraph {
   GatheredEchoes gathered_;
   std::vector<Scan> scans_;  // and what was passed between them
   Pose2 T_odom_robot_;       // at the last of them
+  std::optional<double> compass_rad_;
   std::vector<Pose2> T_map_node_;
   double driven_m_ = 0.0;  // to the latest node
   double trusted_at_m_ = 0.0;

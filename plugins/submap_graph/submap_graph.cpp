@@ -44,7 +44,7 @@ PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&
   const bool is_scan = config_.sweep_s <= 0.0 || sweep_.add(points_m_, *T_odom_robot_, observation.stamp_s);
   if (is_scan) {
     const std::span<const Point> scan_m = config_.sweep_s <= 0.0 ? points_m_ : sweep_.take();
-    estimate.T_map_robot = graph_.add(scan_m, *T_odom_robot_, observation.stamp_s);
+    estimate.T_map_robot = graph_.add(scan_m, *T_odom_robot_, observation.stamp_s, observation.compass_rad);
   } else {
     estimate.T_map_robot = graph_.pass(*T_odom_robot_, observation.stamp_s);
   }

@@ -10,9 +10,10 @@
 //   bad readings, far ones
 //   nothing to match                     odometry alone
 //
-// Printed markers tie the places that they are seen from. The compass, the known map and other landmarks are not used.
-// The covariance is that of the latest match and of the drift since the last closure. The graph and its submaps grow
-// with the way, so update() allocates.
+// Printed markers tie the places that they are seen from. The compass turns the nodes of the graph, with a bias that is
+// found with the poses; without closures only a robot that gathers echoes is turned by it. The known map and other
+// landmarks are not used. The covariance is that of the latest match and of the drift since the last closure. The graph
+// and its submaps grow with the way, so update() allocates.
 #pragma once
 
 #include <optional>
@@ -27,9 +28,12 @@ namespace cairn::submap_graph {
 
 class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraphReport {
  public:
-  // closer: null: no loop is closed by a search.
-  SubmapGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer)
-      : config_(config), sweep_(config.sweep_s), graph_(config, T_map_start, std::move(closer)) {}
+  // closer: null: no loop is closed by a search. robot: whether it has a compass, and what that is worth.
+  SubmapGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer,
+              const RobotModel& robot = {})
+      : config_(config),
+        sweep_(config.sweep_s),
+        graph_(config, T_map_start, std::move(closer), compass_of(config, robot)) {}
 
   PoseEstimate update(const Observation& observation, const KnownMap& known) override;
   PoseHistory* history() override { return this; }

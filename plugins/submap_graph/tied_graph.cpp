@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "maps/pose_graph/information.hpp"
-#include "maps/pose_graph/solver.hpp"
 
 namespace cairn::submap_graph {
 namespace {
@@ -29,8 +28,20 @@ std::size_t TiedGraph::add_node(const Pose2& T_map_node) {
 }
 
 void TiedGraph::tie(std::size_t anchor, std::size_t node, const Pose2& T_anchor_node,
-                    const Eigen::Matrix3d& information) {
-  graph_.edges.push_back({anchor, node, T_anchor_node, information_in_turned(information, T_anchor_node.theta_rad)});
+                    const Eigen::Matrix3d& information, bool is_odometry) {
+  graph_.edges.push_back(
+      {anchor, node, T_anchor_node, information_in_turned(information, T_anchor_node.theta_rad), is_odometry});
+}
+
+void TiedGraph::expect_compass(double bias_rad, double local_bias_rad, double local_kept_ratio) {
+  graph_.expected.compass_rad = bias_rad;
+  graph_.expected.local_compass_rad = local_bias_rad;
+  graph_.expected.local_kept_ratio = local_kept_ratio;
+}
+
+void TiedGraph::expect_odometry(double length_ratio, double turn_ratio) {
+  graph_.expected.length_ratio = length_ratio;
+  graph_.expected.turn_ratio = turn_ratio;
 }
 
 void TiedGraph::add(const Closure& closure) {
@@ -42,10 +53,10 @@ std::size_t TiedGraph::believed() const {
   return static_cast<std::size_t>(std::count(is_believed_.begin(), is_believed_.end(), true));
 }
 
-bool TiedGraph::is_broken(const std::vector<bool>& believed, const std::vector<Pose2>& T_map_node) const {
+bool TiedGraph::is_broken(const std::vector<bool>& believed, const PoseGraphSolution& solution) const {
   std::size_t broken = 0;
   for (const PoseEdge& edge : graph_.edges)
-    if (chi2_of(edge, T_map_node) > kChi2_999) ++broken;
+    if (chi2_of(edge, solution.T_map_node, solution.errors) > kChi2_999) ++broken;
   if (kTiesInOneBroken * broken > graph_.edges.size() + kTiesInOneBroken) return true;
   std::size_t pushed_out = 0;
   for (std::size_t i = 0; i < solved_; ++i)
@@ -54,21 +65,21 @@ bool TiedGraph::is_broken(const std::vector<bool>& believed, const std::vector<P
   return pushed_out > static_cast<std::size_t>(newer);
 }
 
-std::vector<Pose2> TiedGraph::solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const {
-  PoseGraph whole{std::move(T_map_node), graph_.edges, {}};
+PoseGraphSolution TiedGraph::solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const {
+  PoseGraph whole{std::move(T_map_node), graph_.edges, graph_.headings, graph_.expected, graph_.errors};
   for (std::size_t i = 0; i < closures_.size(); ++i)
     if (believed[i]) whole.edges.push_back(edge_of(closures_[i]));
-  return cairn::solve(whole, {kMaxIterations, kRelativeChange}).T_map_node;
+  return cairn::solve(whole, {kMaxIterations, kRelativeChange});
 }
 
 bool TiedGraph::solve() {
   std::vector<bool> believed = is_believed_;
-  std::vector<Pose2> T_map_node = solved_with(believed, graph_.T_map_node);
+  PoseGraphSolution solution = solved_with(believed, graph_.T_map_node);
   std::vector<double> chi2(closures_.size());
   for (int round = 0; round <= kMaxRounds; ++round) {
     double worst = 0.0;
     for (std::size_t i = 0; i < closures_.size(); ++i) {
-      chi2[i] = chi2_of(edge_of(closures_[i]), T_map_node);
+      chi2[i] = chi2_of(edge_of(closures_[i]), solution.T_map_node);
       if (believed[i]) worst = std::max(worst, chi2[i]);
     }
     if (worst <= kChi2_99 || round == kMaxRounds) break;
@@ -76,9 +87,9 @@ bool TiedGraph::solve() {
     const double most = std::max(kChi2_99, kWorstPart * worst);
     for (std::size_t i = 0; i < closures_.size(); ++i)
       if (chi2[i] > most) believed[i] = false;
-    T_map_node = solved_with(believed, T_map_node);
+    solution = solved_with(believed, std::move(solution.T_map_node));
   }
-  if (is_broken(believed, T_map_node)) {
+  if (is_broken(believed, solution)) {
     closures_.resize(solved_);
     is_believed_.resize(solved_);
     return false;
@@ -86,7 +97,8 @@ bool TiedGraph::solve() {
   for (std::size_t i = 0; i < closures_.size(); ++i) believed[i] = chi2[i] <= kChi2_99;
   solved_ = closures_.size();
   is_believed_ = std::move(believed);
-  graph_.T_map_node = std::move(T_map_node);
+  graph_.T_map_node = std::move(solution.T_map_node);
+  graph_.errors = std::move(solution.errors);
   return true;
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "maps/pose_graph/pose_graph.hpp"
+#include "maps/pose_graph/solver.hpp"
 
 namespace cairn::submap_graph {
 
@@ -24,8 +24,14 @@ class TiedGraph {
   // The first node is where it is put; others need ties.
   std::size_t add_node(const Pose2& T_map_node);
   // Measured in the anchor's frame, with the information there.
-  void tie(std::size_t anchor, std::size_t node, const Pose2& T_anchor_node, const Eigen::Matrix3d& information);
+  void tie(std::size_t anchor, std::size_t node, const Pose2& T_anchor_node, const Eigen::Matrix3d& information,
+           bool is_odometry = false);
   void add(const Closure& closure);
+  // A heading may have a bias of its group, and of the run.
+  void add_heading(const HeadingPrior& heading) { graph_.headings.push_back(heading); }
+  void expect_compass(double bias_rad, double local_bias_rad, double local_kept_ratio);
+  // Of lengths and turns that the wheels count.
+  void expect_odometry(double length_ratio, double turn_ratio);
   // Finds the poses that fit the ties and the closures best. Closures that do not fit are left out of it, the worst
   // first, until they do. When ties do not fit any more, or newer closures push out earlier ones, the closures since
   // the last solution are given up, and nothing has moved. Whether poses have moved.
@@ -37,11 +43,14 @@ class TiedGraph {
   [[nodiscard]] const std::vector<bool>& is_believed() const { return is_believed_; }
   [[nodiscard]] const std::vector<PoseEdge>& ties() const { return graph_.edges; }
   [[nodiscard]] std::size_t believed() const;
+  [[nodiscard]] bool has_headings() const { return !graph_.headings.empty(); }
+  // Of compass and wheels, by the last solution.
+  [[nodiscard]] const SensorErrors& errors() const { return graph_.errors; }
 
  private:
   // Whether ties do not fit, or more closures that were believed before do not than newer ones do.
-  [[nodiscard]] bool is_broken(const std::vector<bool>& believed, const std::vector<Pose2>& T_map_node) const;
-  [[nodiscard]] std::vector<Pose2> solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const;
+  [[nodiscard]] bool is_broken(const std::vector<bool>& believed, const PoseGraphSolution& solution) const;
+  [[nodiscard]] PoseGraphSolution solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const;
 
   PoseGraph graph_;  // nodes and ties
   std::vector<Closure> closures_;

@@ -29,7 +29,7 @@ TEST(NormalEquations, TheGradientIsHalfOfChi2sDerivative) {
     graph.edges[2].information(0, 2) = graph.edges[2].information(2, 0) = 20.0;
     if (seed % 2 == 0) graph.headings = {{3, 0.4, 7.0}, {5, -2.0, 2.0}};
     NormalEquations equations(graph);
-    equations.fill(graph.T_map_node);
+    equations.fill(graph.T_map_node, graph.errors);
     const Eigen::VectorXd expected = gradient_by_differences(graph);
     EXPECT_LT((equations.gradient() - expected).cwiseAbs().maxCoeff(), 1e-4 * expected.cwiseAbs().maxCoeff()) << seed;
   }
@@ -38,7 +38,7 @@ TEST(NormalEquations, TheGradientIsHalfOfChi2sDerivative) {
 TEST(NormalEquations, OfExactEdgesTheHessianIsHalfOfChi2sSecondDerivative) {
   const RandomPoseGraph made = random_pose_graph(3, 6, 3, 0.0);
   NormalEquations equations(made.graph);
-  equations.fill(made.truth);
+  equations.fill(made.truth, {});
   PoseGraph moved = made.graph;
   const Eigen::Index rows = equations.gradient().size();
   Eigen::VectorXd step = Eigen::VectorXd::Random(rows) * 1e-4;

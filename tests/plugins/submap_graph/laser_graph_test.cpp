@@ -85,6 +85,8 @@ TEST(LaserGraph, FewEchoesThatAreGatheredOverTheWayCloseLoopsToo) {
   }
   const double odometry_m = (drive.front().T_map_robot * drive.back().T_odom_robot).position().norm();
   EXPECT_GT(graph.graph().believed(), 10U);
+  for (const Closure& closure : graph.graph().closures())
+    EXPECT_LT(closure.information(2, 2), 1.0 / (radians(2.0) * radians(2.0))) << "echoes on axes know no more";
   EXPECT_LT((graph.poses().back().position() - drive.back().T_map_robot.position()).norm(), 0.5 * odometry_m);
 }
 
