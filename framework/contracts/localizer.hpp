@@ -12,6 +12,7 @@
 #include "maps/geometry/contour.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
+#include "maps/submaps/kept_submaps.hpp"
 
 namespace cairn {
 
@@ -69,6 +70,9 @@ struct LocalizerContext : ModuleContext {
   Pose2 T_map_start{};                               // where the robot begins
   std::span<const LandmarkShape> landmark_shapes{};  // the outlines that the mission's templates describe
   StartUncertainty start_uncertainty{};
+  // What a localizer that keeps them (PoseGraphReport) has left in the map that the run goes on with; null: nothing. In
+  // the map's frame, which stays. For the time of the call only.
+  const KeptSubmaps* saved_submaps = nullptr;
 };
 
 template <>

@@ -2,6 +2,13 @@
 
 namespace cairn::submap_graph {
 
+BackEnd::BackEnd(const Config& config, const EarlierPart& earlier)
+    : config_(config), closer_(config), finished_(earlier.submaps), solved_at_node_(earlier.T_map_node.size()) {
+  for (const Pose2& T_map_node : earlier.T_map_node) graph_.add_node(T_map_node);
+  graph_.hold();
+  closer_.hold(earlier.T_map_node);
+}
+
 Correction BackEnd::add(const Stretch& stretch) {
   for (const NewNode& node : stretch.nodes) add(node);
   for (const Closure& closure : stretch.closures) graph_.add(closure);
@@ -10,8 +17,8 @@ Correction BackEnd::add(const Stretch& stretch) {
 }
 
 void BackEnd::add(const NewNode& node) {
-  const std::size_t number =
-      graph_.add_node(graph_.size() == 0 ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
+  const std::size_t number = graph_.add_node(
+      graph_.size() == graph_.held() ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
   for (const LocalMap::Tie& tie : node.ties) graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information);
   finished_.insert(finished_.end(), node.finished.begin(), node.finished.end());
   closer_.add_node(node.points_m, node.T_local_node);

@@ -18,9 +18,16 @@ constexpr double kChi2_95 = 7.81;  // of three degrees of freedom
 
 }  // namespace
 
+void Closer::hold(std::span<const Pose2> T_map_node) {
+  held_ = T_map_node.size();
+  T_local_node_.assign(T_map_node.begin(), T_map_node.end());
+  driven_m_.assign(held_, 0.0);
+  points_m_.resize(held_);
+}
+
 void Closer::add_node(std::span<const Point> points_m, const Pose2& T_local_node) {
   const double step_m =
-      T_local_node_.empty() ? 0.0 : (T_local_node.position() - T_local_node_.back().position()).norm();
+      T_local_node_.size() == held_ ? 0.0 : (T_local_node.position() - T_local_node_.back().position()).norm();
   driven_m_.push_back(driven_m_.empty() ? 0.0 : driven_m_.back() + step_m);
   T_local_node_.push_back(T_local_node);
   points_m_.emplace_back(points_m.begin(), points_m.end());
@@ -45,7 +52,7 @@ std::vector<Closer::Candidate> Closer::candidates(std::size_t node, const TiedGr
   std::vector<Candidate> found;
   for (const std::shared_ptr<const Submap>& submap : finished) {
     // Neighbours on the way are tied already.
-    if (driven_m_[node] >= driven_m_[submap->nodes().front()] - config_.submap_m &&
+    if (submap->anchor() >= held_ && driven_m_[node] >= driven_m_[submap->nodes().front()] - config_.submap_m &&
         driven_m_[node] <= driven_m_[submap->nodes().back()] + config_.submap_m)
       continue;
     double distance_m = std::numeric_limits<double>::infinity();

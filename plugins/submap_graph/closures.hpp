@@ -17,6 +17,8 @@ class Closer {
  public:
   explicit Closer(const Config& config) : config_(config) {}
 
+  // Before all others: nodes whose places in the map are fixed, so that the way does not lead over them.
+  void hold(std::span<const Pose2> T_map_node);
   // For each node, in order.
   void add_node(std::span<const Point> points_m, const Pose2& T_local_node);
   // Closures of the node that are to be believed now: its own, and waiting ones for which it is the second witness.
@@ -52,6 +54,7 @@ class Closer {
   std::vector<std::vector<Point>> points_m_;  // of the nodes
   std::vector<Pose2> T_local_node_;           // the way, never corrected
   std::vector<double> driven_m_;
+  std::size_t held_ = 0;  // so many nodes are fixed
   double trusted_at_m_ = 0.0;
   std::vector<Waiting> waiting_;
   std::vector<std::pair<const Submap*, std::unique_ptr<FieldPyramid>>> pyramids_;  // the latest used first

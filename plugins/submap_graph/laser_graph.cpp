@@ -18,12 +18,15 @@ Eigen::Matrix3d floored(const Eigen::Matrix3d& information) {
 
 }  // namespace
 
-LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start)
+LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start, EarlierPart earlier)
     : config_(config),
+      earlier_(std::move(earlier)),
       local_map_(config),
       gathered_(config.gather_m),
+      T_map_node_(earlier_.T_map_node),
+      finished_nodes_(earlier_.T_map_node.size()),
       T_map_start_(T_map_start),
-      back_end_(std::make_unique<BackEnd>(config)) {}
+      back_end_(std::make_unique<BackEnd>(config, earlier_)) {}
 
 Pose2 LaserGraph::add(std::span<const Point> points_m, const Pose2& T_odom_robot, double stamp_s) {
   take_answer_when_due(stamp_s);
@@ -94,9 +97,18 @@ void LaserGraph::take_node(const Pose2& step, std::span<const Point> points_m, c
   finished_ = local_map_.finished();
 }
 
+FinishedSubmaps LaserGraph::all_submaps() const {
+  FinishedSubmaps all = earlier_.submaps;
+  all.insert(all.end(), local_map_.submaps().begin(), local_map_.submaps().end());
+  return all;
+}
+
 std::vector<LocalMap::Tie> LaserGraph::ties(const Pose2& step) const {
   std::vector<LocalMap::Tie> ties;
-  if (config_.gather_m <= 0.0) {
+  const std::size_t first = earlier_.T_map_node.size();
+  if (first > 0 && nodes() == first + 1) {
+    ties.push_back(start_tie(earlier_, T_map_start_));
+  } else if (config_.gather_m <= 0.0) {
     ties = local_map_.ties();
     for (LocalMap::Tie& tie : ties) tie.information = floored(tie.information);
   } else if (nodes() > 1) {
@@ -147,8 +159,8 @@ bool LaserGraph::finish_part() {
   finish_search();
   if (!stretch_.nodes.empty() || !stretch_.closures.empty()) take(back_end_->add(std::exchange(stretch_, {})));
   const std::size_t end = std::min(finished_nodes_ + kNodesInPart, nodes());
-  for (; finished_nodes_ < end; ++finished_nodes_)
-    back_end_->search_again(finished_nodes_, std::span(local_map_.submaps()));
+  const FinishedSubmaps submaps = all_submaps();
+  for (; finished_nodes_ < end; ++finished_nodes_) back_end_->search_again(finished_nodes_, submaps);
   if (finished_nodes_ < nodes()) return true;
   take(back_end_->solve_last());
   is_finished_ = true;

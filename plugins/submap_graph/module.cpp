@@ -10,7 +10,8 @@ void register_module(cairn::Registrar& registrar) {
   registrar.add<cairn::Localizer, Config>(
       "submap_graph", "odometry and laser scans: submaps in a pose graph that closes loops and corrects the past",
       [](const Config& config, const cairn::LocalizerContext& context) {
-        return std::make_unique<SubmapGraph>(config, context.T_map_start);
+        return std::make_unique<SubmapGraph>(config, context.T_map_start, context.saved_submaps,
+                                             context.start_uncertainty);
       });
 }
 

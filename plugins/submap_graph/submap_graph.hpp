@@ -2,7 +2,8 @@
 //
 // For robots with a laser, with or without a compass. Each scan is laid on the submap under way; places that were
 // passed before are recognised by searching the scan in their submaps, believed with a second witness, and the pose
-// graph is solved. Then the pose jumps to where it is in the corrected map, and history() gives the earlier ones.
+// graph is solved. Then the pose jumps to where it is in the corrected map, and history() gives the earlier ones. In a
+// run that goes on with a saved map, its submaps are searched too, and stay where they are.
 //
 //   odometry that is not finite, or      the step is taken as none
 //   beyond 1000 km
@@ -27,8 +28,9 @@ namespace cairn::submap_graph {
 
 class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraphReport {
  public:
-  SubmapGraph(const Config& config, const Pose2& T_map_start)
-      : config_(config), sweep_(config.sweep_s), graph_(config, T_map_start) {}
+  // saved: what earlier runs have left in the map, or null.
+  SubmapGraph(const Config& config, const Pose2& T_map_start, const KeptSubmaps* saved = nullptr,
+              const StartUncertainty& start = {});
 
   PoseEstimate update(const Observation& observation, const KnownMap& known) override;
   PoseHistory* history() override { return this; }
@@ -41,6 +43,7 @@ class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraph
  private:
   Config config_;
   Sweep sweep_;
+  KeptSubmaps earlier_;  // as it was saved
   LaserGraph graph_;
   std::vector<double> node_stamps_s_;
   std::optional<Pose2> T_odom_robot_;  // the last good one

@@ -68,10 +68,35 @@ bool TiedGraph::is_broken(const std::vector<bool>& believed, const std::vector<P
   return pushed_out > static_cast<std::size_t>(newer);
 }
 
+PoseEdge TiedGraph::seen_from_map(PoseEdge edge) const {
+  if (edge.from < held_) {
+    edge.T_from_to = T_map(edge.from) * edge.T_from_to;
+    edge.from = 0;
+  } else {
+    edge.from -= held_ - 1;
+  }
+  edge.to -= held_ - 1;
+  return edge;
+}
+
+std::vector<Pose2> TiedGraph::solved_in_map(const std::vector<PoseEdge>& edges, std::vector<Pose2> T_map_node) const {
+  const auto first = T_map_node.begin() + static_cast<std::ptrdiff_t>(held_);
+  PoseGraph whole{{Pose2{}}, {}, {}};
+  whole.T_map_node.insert(whole.T_map_node.end(), first, T_map_node.end());
+  whole.edges.reserve(edges.size());
+  for (const PoseEdge& edge : edges) whole.edges.push_back(seen_from_map(edge));
+  const std::vector<Pose2> solved = cairn::solve(whole, {kMaxIterations, kRelativeChange}).T_map_node;
+  // The solver may move all nodes together.
+  std::transform(solved.begin() + 1, solved.end(), first,
+                 [T_map_solved = inverse(solved.front())](const Pose2& pose) { return T_map_solved * pose; });
+  return T_map_node;
+}
+
 std::vector<Pose2> TiedGraph::solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const {
   PoseGraph whole{std::move(T_map_node), graph_.edges, {}};
   for (std::size_t i = 0; i < closures_.size(); ++i)
     if (believed[i]) whole.edges.push_back(edge_of(closures_[i]));
+  if (held_ > 0) return solved_in_map(whole.edges, std::move(whole.T_map_node));
   return cairn::solve(whole, {kMaxIterations, kRelativeChange}).T_map_node;
 }
 

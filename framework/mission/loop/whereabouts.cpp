@@ -151,7 +151,8 @@ void MissionLoop::find_itself() {
   localisation_->found_s = world_.time_s;
   localisation_->T_map_robot = T_map_robot;
   finder_.reset();
-  const std::shared_ptr<Localizer> localizer = build_localizer(mission_, library_, {T_map_robot, kFoundUncertainty});
+  const std::shared_ptr<Localizer> localizer = build_localizer(
+      mission_, library_, {T_map_robot, kFoundUncertainty, submaps_so_far_.empty() ? nullptr : &submaps_so_far_});
   if (options_.localise_in) {
     world_.T_map_start = T_map_local * world_.T_map_start;
     world_.grid = &perception_.settle(localizer);
