@@ -3,7 +3,7 @@
 namespace cairn::submap_graph {
 
 BackEnd::BackEnd(const Config& config, const EarlierPart& earlier)
-    : config_(config), closer_(config), finished_(earlier.submaps), solved_at_node_(earlier.T_map_node.size()) {
+    : config_(config), closer_(config), finished_(earlier.submaps) {
   for (const Pose2& T_map_node : earlier.T_map_node) graph_.add_node(T_map_node);
   graph_.hold();
   closer_.hold(earlier.T_map_node);
@@ -12,7 +12,9 @@ BackEnd::BackEnd(const Config& config, const EarlierPart& earlier)
 Correction BackEnd::add(const Stretch& stretch) {
   for (const NewNode& node : stretch.nodes) add(node);
   for (const Closure& closure : stretch.closures) graph_.add(closure);
-  const bool is_due = graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
+  // In a run that goes on the first closures count at once: until then it is where the start pose says.
+  const bool is_first = graph_.held() > 0 && solved_closures_ == 0;
+  const bool is_due = is_first || graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
   return correction(is_due && graph_.closures().size() > solved_closures_ && solve());
 }
 
