@@ -18,6 +18,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr int kFirst_s = 150;
+constexpr const char* kShortLook = "steps.0.force_success.explore.at_most_s=90";
+const std::string kMission = source_folder() + "/config/missions/slam_patrol.yaml";
 
 struct Continued {
   Finished finished;
@@ -27,15 +29,9 @@ struct Continued {
 
 Continued run_patrol(const std::string& name, int until_s, const std::vector<std::string>& more) {
   const auto folder = fresh_folder(name);
-  std::vector<std::string> arguments{"run",
-                                     source_folder() + "/config/missions/slam_patrol.yaml",
-                                     "--out",
-                                     folder.string(),
-                                     "--json",
-                                     "--set",
-                                     "steps.0.force_success.explore.at_most_s=90",
-                                     "--set",
-                                     fmt::format("at_most_s={}", until_s)};
+  std::vector<std::string> arguments{"run",           kMission, "--out",
+                                     folder.string(), "--json", "--set",
+                                     kShortLook,      "--set",  fmt::format("at_most_s={}", until_s)};
   arguments.insert(arguments.end(), more.begin(), more.end());
   Continued continued{run_cairn(arguments), {}, {}};
   EXPECT_TRUE(std::filesystem::exists(folder / "slam_patrol.cairn")) << continued.finished.err;
@@ -101,6 +97,30 @@ TEST(SlamContinued, TenMinutesOfStandingAddNoSubmap) {
   const Continued next = run_patrol("slam_standing_next", 660, goes_on);
   EXPECT_GT(first.map.submaps.nodes.size(), 5U);
   EXPECT_EQ(next.map.submaps, first.map.submaps);
+}
+
+TEST(SlamContinued, AnAutosaveHoldsTheGraphThatItsRunBeganWith) {
+  const auto folder = fresh_folder("slam_killed");
+  const Killed killed = kill_cairn(
+      {"run", kMission, "--out", folder.string(), "--set", kShortLook, "--set", "at_most_s=1000", "--set",
+       "autosave.every_s=0.1", "--resume", saved("slam_killed_map", first_run().map).string(), "--pose", pushed_pose()},
+      "autosaved", 0.2);
+  ASSERT_FALSE(killed.has_ended);
+  EXPECT_EQ(load_map(folder / "slam_patrol.autosave.cairn").submaps, first_run().map.submaps);
+}
+
+TEST(SlamContinued, ARobotInAMapThatIsLeftAloneIsPutRightToo) {
+  const auto folder = fresh_folder("slam_localised");
+  const auto file = saved("slam_localised_map", first_run().map);
+  const std::string before = text_of_file(file);
+  const Finished finished =
+      run_cairn({"run", kMission, "--out", folder.string(), "--json", "--localize-in", file.string(), "--pose",
+                 "0.8,2.45,3", "--set", "steps=[{goto: {at_m: [2.9, 2.6]}}, {goto: {at_m: [0.8, 2.6]}}]"});
+  ASSERT_EQ(finished.exit_status, 0) << finished.err;
+  const json report = json::parse(text_of_file(folder / "report.json"));
+  EXPECT_GT(report["pose_error"]["worst_m"].get<double>(), 0.2) << "the pose that was given";
+  EXPECT_LT(report["pose_error"]["last_m"].get<double>(), 0.15);
+  EXPECT_EQ(text_of_file(file), before);
 }
 
 TEST(SlamContinued, SubmapsThatCannotBeTrueAreLeftOutAndTheRunSaysSo) {
