@@ -14,6 +14,7 @@
 #include "maps/geometry/contour.hpp"
 #include "maps/grid/occupancy_grid.hpp"
 #include "maps/landmarks/landmark_graph.hpp"
+#include "maps/submaps/kept_submaps.hpp"
 
 namespace cairn {
 
@@ -76,6 +77,9 @@ struct LocalizerContext : ModuleContext {
   // Makes the mission's loop closer (loop_closer.hpp), a new one each time. Only a localizer that closes loops calls
   // it, so others have none built. What it throws must pass. Empty: there is none, so no loop is closed by a search.
   std::function<std::shared_ptr<LoopCloser>()> loop_closer{};
+  // What a localizer that keeps them (PoseGraphReport) has left in the map that the run goes on with; null: nothing. In
+  // the map's frame, which stays. For the time of the call only.
+  const KeptSubmaps* saved_submaps = nullptr;
 };
 
 template <>

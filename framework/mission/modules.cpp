@@ -236,12 +236,17 @@ std::shared_ptr<Sensor> build_sensor(const Mission& mission, const ModuleLibrary
   return build_sensor(mission, library, built);
 }
 
+const KeptSubmaps* usable_submaps(const SavedMap* map) {
+  return map == nullptr || map->submaps.empty() || !fault_of(map->submaps).empty() ? nullptr : &map->submaps;
+}
+
 std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleLibrary& library,
                                            const LocalizerStart& start,
                                            std::shared_ptr<CallsUnderWay> loop_closer_calls) {
-  return build<Localizer>(library, mission.config.localizer,
-                          {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes,
-                           start.uncertainty, [&] { return build_loop_closer(mission, library, loop_closer_calls); }});
+  return build<Localizer>(
+      library, mission.config.localizer,
+      {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes, start.uncertainty,
+       [&] { return build_loop_closer(mission, library, loop_closer_calls); }, start.saved_submaps});
 }
 
 std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
@@ -275,7 +280,8 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   }
   if (resume != nullptr) built.T_map_start = resume->progress->T_map_robot;
   if (start_known) built.T_map_start = start_known->T_map_start;
-  built.localizer = build_localizer(mission, library, start_known.value_or(LocalizerStart{built.T_map_start, {}}),
+  built.localizer = build_localizer(mission, library,
+                                    start_known.value_or(LocalizerStart{built.T_map_start, {}, usable_submaps(resume)}),
                                     built.loop_closer_calls);
   built.mapper = build_mapper(mission, library);
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);

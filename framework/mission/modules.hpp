@@ -21,7 +21,11 @@ namespace cairn {
 struct LocalizerStart {
   Pose2 T_map_start;
   StartUncertainty uncertainty;
+  const KeptSubmaps* saved_submaps = nullptr;  // of the map that the pose is in
 };
+
+// What a run can go on with of the map's submaps; null: there are none, or there is a fault in them (fault_of()).
+[[nodiscard]] const KeptSubmaps* usable_submaps(const SavedMap* map);
 
 struct MissionModules {
   std::shared_ptr<Sensor> sensor;

@@ -41,4 +41,8 @@ struct SalvagedMap {
 // known, or nothing of it can be read. Never writes.
 [[nodiscard]] SalvagedMap salvage_map(const std::filesystem::path& file);
 
+// Of a file that load_map() refuses: the map without its submaps, when nothing else of it is damaged; none otherwise.
+// Throws as salvage_map() does.
+[[nodiscard]] std::optional<SavedMap> map_without_damaged_submaps(const std::filesystem::path& file);
+
 }  // namespace cairn

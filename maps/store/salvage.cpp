@@ -299,4 +299,13 @@ SalvagedMap salvage_map(const std::filesystem::path& file) {
   });
 }
 
+std::optional<SavedMap> map_without_damaged_submaps(const std::filesystem::path& file) {
+  SalvagedMap salvaged = salvage_map(file);
+  const auto is_of_submaps = [](const StoreLoss& loss) { return loss.table.starts_with("submap"); };
+  if (salvaged.losses.empty() || !std::ranges::all_of(salvaged.losses, is_of_submaps)) return std::nullopt;
+  salvaged.map.properties.erase(kUnprovenTables);
+  salvaged.map.submaps = {};
+  return std::move(salvaged.map);
+}
+
 }  // namespace cairn

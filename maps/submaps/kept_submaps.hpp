@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "maps/geometry/pose.hpp"
@@ -12,7 +13,7 @@
 namespace cairn {
 
 struct KeptNode {
-  std::int64_t number = 0;  // from 0, in the order in which they were driven
+  std::int64_t number = 0;  // rising in the order in which they were driven; some may be missing
   double stamp_s = 0.0;
   Pose2 T_map_node;
   bool operator==(const KeptNode&) const = default;
@@ -21,6 +22,7 @@ struct KeptNode {
 // Lies in the map as its anchor does, a node: cell (x, y) of the grid begins at cell_m (min_x + x, min_y + y) there.
 struct KeptSubmap {
   static constexpr int kMaxSide = 2048;
+  static constexpr double kMaxCell_m = 10.0;
   std::int64_t anchor = 0;
   bool finished = false;  // the robot has left it; an open one would have grown on
   double cell_m = 0.1;
@@ -47,6 +49,7 @@ struct KeptSubmaps {
   static constexpr std::size_t kMax = 1000;
   static constexpr std::size_t kMaxNodes = 50'000;
   static constexpr std::size_t kMaxEdges = 200'000;
+  static constexpr std::int64_t kMaxNumber = 1'000'000'000;
   std::vector<KeptNode> nodes;      // by rising number
   std::vector<KeptSubmap> submaps;  // by rising anchor
   std::vector<KeptEdge> edges;
@@ -56,6 +59,15 @@ struct KeptSubmaps {
 
 // The points as echoes of a submap's grid. Those beyond the largest grid around the anchor are left out.
 void set_echoes(KeptSubmap& submap, std::span<const Point> points_m);
+// The centres of the grid's cells that have echoes, in the anchor's frame; one of several echoes as many times, at most
+// max_times.
+[[nodiscard]] std::vector<Point> echoes_of(const KeptSubmap& submap, int max_times);
+// The nodes whose scans a submap holds: the anchor and those that followed it on submap_m of the way, a turn of one
+// radian counted as a metre. There must be no fault. O(log nodes).
+[[nodiscard]] std::span<const KeptNode> nodes_of(const KeptSubmaps& submaps, const KeptSubmap& submap, double submap_m);
+// Why a run cannot go on with them: a pose beyond all maps, a number that comes twice, a grid that has other cells than
+// it says, an anchor or an end of an edge that is missing. Empty: it can.
+[[nodiscard]] std::string fault_of(const KeptSubmaps& submaps);
 // Leaves out the oldest where there is more than a map keeps, and edges that have lost an end.
 void keep_latest(KeptSubmaps& submaps);
 

@@ -6,15 +6,21 @@
 
 namespace cairn::submap_graph {
 
-BackEnd::BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const Compass& compass)
-    : config_(config), closures_(config, std::move(closer)), headings_(compass) {
+BackEnd::BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const Compass& compass,
+                 const EarlierPart& earlier)
+    : config_(config), closures_(config, std::move(closer)), headings_(compass), finished_(earlier.submaps) {
   if (config.gather_m > 0.0) graph_.expect_odometry(config.odometry_length_bias_ratio, config.odometry_turn_bias_ratio);
+  for (const Pose2& T_map_node : earlier.T_map_node) graph_.add_node(T_map_node);
+  graph_.hold();
+  closures_.hold(earlier.T_map_node);
 }
 
 Correction BackEnd::add(const Stretch& stretch) {
   for (const NewNode& node : stretch.nodes) add(node);
   for (const Closure& closure : stretch.closures) graph_.add(closure);
-  const bool is_due = graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
+  // In a run that goes on the first closures count at once: until then it is where the start pose says.
+  const bool is_first = graph_.held() > 0 && solved_closures_ == 0 && !graph_.closures().empty();
+  const bool is_due = is_first || graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
   return correction(is_due && is_news() && solve());
 }
 
@@ -24,12 +30,14 @@ bool BackEnd::is_news() const {
 }
 
 void BackEnd::add(const NewNode& node) {
+  const bool is_first = graph_.size() == graph_.held();
   const std::size_t number =
-      graph_.add_node(graph_.size() == 0 ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
-  const bool is_odometry = config_.gather_m > 0.0;
-  for (const LocalMap::Tie& tie : node.ties)
+      graph_.add_node(is_first ? node.T_last_node : graph_.T_map(graph_.size() - 1) * node.T_last_node);
+  for (const LocalMap::Tie& tie : node.ties) {
+    const bool is_odometry = config_.gather_m > 0.0 && !is_first;
     graph_.tie(tie.anchor, number, tie.T_anchor_node, tie.information, is_odometry);
-  headings_.add(node.compass_rad, number == 0 ? 0.0 : node.T_last_node.position().norm(), graph_);
+  }
+  headings_.add(node.compass_rad, is_first ? 0.0 : node.T_last_node.position().norm(), graph_);
   finished_.insert(finished_.end(), node.finished.begin(), node.finished.end());
   closures_.add_node(node.points_m, node.T_local_node);
   const Budget budget{.cancel = &is_cancelled_};

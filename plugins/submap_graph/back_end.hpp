@@ -12,16 +12,15 @@
 #include "plugins/submap_graph/closures.hpp"
 #include "plugins/submap_graph/compass_headings.hpp"
 #include "plugins/submap_graph/config.hpp"
+#include "plugins/submap_graph/earlier_part.hpp"
 #include "plugins/submap_graph/local_map.hpp"
 #include "plugins/submap_graph/tied_graph.hpp"
 
 namespace cairn::submap_graph {
 
-using FinishedSubmaps = std::vector<std::shared_ptr<const Submap>>;
-
 // A node as the local map leaves it.
 struct NewNode {
-  Pose2 T_last_node;  // from the node before; of the first: in the map
+  Pose2 T_last_node;  // from the node before; of the first of the run: in the map
   Pose2 T_local_node;
   std::vector<Point> points_m;  // that closures are searched with
   std::vector<LocalMap::Tie> ties;
@@ -44,7 +43,7 @@ struct Correction {
 class BackEnd {
  public:
   // closer: may be null.
-  BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const Compass& compass = {});
+  BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const Compass& compass, const EarlierPart& earlier);
 
   Correction add(const Stretch& stretch);
   // Searches closures of a node again, with all submaps and small windows.

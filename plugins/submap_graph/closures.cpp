@@ -12,9 +12,16 @@ constexpr double kChi2_95 = 7.81;  // of three degrees of freedom
 
 }  // namespace
 
+void Closures::hold(std::span<const Pose2> T_map_node) {
+  held_ = T_map_node.size();
+  T_local_node_.assign(T_map_node.begin(), T_map_node.end());
+  driven_m_.assign(held_, 0.0);
+  points_m_.resize(held_);
+}
+
 void Closures::add_node(std::span<const Point> points_m, const Pose2& T_local_node) {
   const double step_m =
-      T_local_node_.empty() ? 0.0 : (T_local_node.position() - T_local_node_.back().position()).norm();
+      T_local_node_.size() == held_ ? 0.0 : (T_local_node.position() - T_local_node_.back().position()).norm();
   driven_m_.push_back(driven_m_.empty() ? 0.0 : driven_m_.back() + step_m);
   T_local_node_.push_back(T_local_node);
   points_m_.emplace_back(points_m.begin(), points_m.end());
@@ -22,7 +29,7 @@ void Closures::add_node(std::span<const Point> points_m, const Pose2& T_local_no
 
 // Neighbours on the way are tied already.
 bool Closures::is_neighbour(std::size_t node, const Submap& submap) const {
-  return driven_m_[node] >= driven_m_[submap.nodes().front()] - config_.submap_m &&
+  return submap.anchor() >= held_ && driven_m_[node] >= driven_m_[submap.nodes().front()] - config_.submap_m &&
          driven_m_[node] <= driven_m_[submap.nodes().back()] + config_.submap_m;
 }
 

@@ -18,6 +18,8 @@ class Closures {
   // closer: null: none are found.
   Closures(const Config& config, std::shared_ptr<LoopCloser> closer) : config_(config), closer_(std::move(closer)) {}
 
+  // Before all others: nodes whose places in the map are fixed, so that the way does not lead over them.
+  void hold(std::span<const Pose2> T_map_node);
   // For each node, in order.
   void add_node(std::span<const Point> points_m, const Pose2& T_local_node);
   // Closures of the node that are to be believed now: its own, and waiting ones for which it is the second witness.
@@ -50,6 +52,7 @@ class Closures {
   std::vector<std::vector<Point>> points_m_;  // of the nodes
   std::vector<Pose2> T_local_node_;           // the way, never corrected
   std::vector<double> driven_m_;
+  std::size_t held_ = 0;  // so many nodes are fixed
   double trusted_at_m_ = 0.0;
   std::vector<Waiting> waiting_;
 };

@@ -30,8 +30,8 @@ void CompassHeadings::add(std::optional<double> compass_rad, double step_m, Tied
   in_group_m_ += step_m;
   if (compass_.noise_rad <= 0.0 || !compass_rad || !std::isfinite(*compass_rad)) return;
   if (!has_begun_) {
-    // The compass has a bias; where the map's axes lie is known by the pose at the start.
-    graph.add_heading({0, graph.T_map(0).theta_rad, information_of(kStartHeading_rad)});
+    // The compass has a bias; where the map's axes lie is known by the pose at the start, or by a map that is held.
+    if (graph.held() == 0) graph.add_heading({0, graph.T_map(0).theta_rad, information_of(kStartHeading_rad)});
     graph.expect_compass(compass_.bias_rad, compass_.local_bias_rad, std::exp(-kGroup_m / compass_.local_scale_m));
     has_begun_ = true;
     in_group_m_ = 0.0;

@@ -21,12 +21,15 @@ Eigen::Matrix3d floored(const Eigen::Matrix3d& information) {
 }  // namespace
 
 LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer,
-                       const Compass& compass)
+                       const Compass& compass, EarlierPart earlier)
     : config_(config),
+      earlier_(std::move(earlier)),
       local_map_(config),
       gathered_(config.gather_m),
+      T_map_node_(earlier_.T_map_node),
+      finished_nodes_(earlier_.T_map_node.size()),
       T_map_start_(T_map_start),
-      back_end_(std::make_unique<BackEnd>(config, std::move(closer), compass)) {}
+      back_end_(std::make_unique<BackEnd>(config, std::move(closer), compass, earlier_)) {}
 
 LaserGraph::~LaserGraph() {
   if (back_end_) back_end_->cancel();
@@ -104,9 +107,18 @@ void LaserGraph::take_node(const Pose2& step, std::span<const Point> points_m, c
   finished_ = local_map_.finished();
 }
 
+FinishedSubmaps LaserGraph::all_submaps() const {
+  FinishedSubmaps all = earlier_.submaps;
+  all.insert(all.end(), local_map_.submaps().begin(), local_map_.submaps().end());
+  return all;
+}
+
 std::vector<LocalMap::Tie> LaserGraph::ties(const Pose2& step) const {
   std::vector<LocalMap::Tie> ties;
-  if (config_.gather_m <= 0.0) {
+  const std::size_t first = earlier_.T_map_node.size();
+  if (first > 0 && nodes() == first + 1) {
+    ties.push_back(start_tie(earlier_, T_map_start_));
+  } else if (config_.gather_m <= 0.0) {
     ties = local_map_.ties();
     for (LocalMap::Tie& tie : ties) tie.information = floored(tie.information);
   } else if (nodes() > 1) {
@@ -157,8 +169,8 @@ bool LaserGraph::finish_part() {
   finish_search();
   if (!stretch_.nodes.empty() || !stretch_.closures.empty()) take(back_end_->add(std::exchange(stretch_, {})));
   const std::size_t end = std::min(finished_nodes_ + kNodesInPart, nodes());
-  for (; finished_nodes_ < end; ++finished_nodes_)
-    back_end_->search_again(finished_nodes_, std::span(local_map_.submaps()));
+  const FinishedSubmaps submaps = all_submaps();
+  for (; finished_nodes_ < end; ++finished_nodes_) back_end_->search_again(finished_nodes_, submaps);
   if (finished_nodes_ < nodes()) return true;
   take(back_end_->solve_last());
   is_finished_ = true;

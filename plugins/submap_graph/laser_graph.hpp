@@ -20,6 +20,7 @@
 #include "maps/submaps/submap.hpp"
 #include "plugins/submap_graph/back_end.hpp"
 #include "plugins/submap_graph/config.hpp"
+#include "plugins/submap_graph/earlier_part.hpp"
 #include "plugins/submap_graph/gathered_echoes.hpp"
 #include "plugins/submap_graph/local_map.hpp"
 #include "plugins/submap_graph/marker_closures.hpp"
@@ -31,9 +32,10 @@ class LaserGraph {
   static constexpr double kAnswerAfter_s = 0.2;
   static constexpr int kAnswerAfterScans = 50;  // at the latest, whatever the stamps
 
-  // closer: null: no loop is closed by a search.
+  // closer: null: no loop is closed by a search. earlier: what runs before this one have left. Its nodes are the first
+  // ones, and stay where they are; its submaps are searched as those of this run are.
   LaserGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer,
-             const Compass& compass = {});
+             const Compass& compass = {}, EarlierPart earlier = {});
   LaserGraph(LaserGraph&&) = default;
   ~LaserGraph();
 
@@ -48,7 +50,7 @@ class LaserGraph {
   // and solves for the last time.
   bool finish_part();
 
-  // Of all scans so far, as known now.
+  // Of all scans of this run, as known now.
   [[nodiscard]] std::vector<Pose2> poses() const;
   // Rises whenever earlier poses have been corrected.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
@@ -74,6 +76,7 @@ class LaserGraph {
   Pose2 place(std::span<const Point> points_m, const Pose2& T_odom_robot);
   void take_node(const Pose2& step, std::span<const Point> points_m, const LocalPose& local);
   [[nodiscard]] std::vector<LocalMap::Tie> ties(const Pose2& step) const;
+  [[nodiscard]] FinishedSubmaps all_submaps() const;
   void take_answer_when_due(double stamp_s);
   void take(const Correction& correction);
   void begin_search(double stamp_s);
@@ -82,6 +85,7 @@ class LaserGraph {
   [[nodiscard]] Pose2 T_map(const Scan& scan) const { return T_map_node_[scan.node] * scan.T_node_scan; }
 
   Config config_;
+  EarlierPart earlier_;
   LocalMap local_map_;
   MarkerClosures marker_closures_;
   GatheredEchoes gathered_;

@@ -13,7 +13,8 @@ void register_module(cairn::Registrar& registrar) {
       "submap_graph", "odometry and laser scans: submaps in a pose graph that closes loops and corrects the past",
       [](const Config& config, const cairn::LocalizerContext& context) {
         return std::make_unique<SubmapGraph>(config, context.T_map_start,
-                                             context.loop_closer ? context.loop_closer() : nullptr, context.robot);
+                                             context.loop_closer ? context.loop_closer() : nullptr, context.robot,
+                                             context.saved_submaps, context.start_uncertainty);
       });
 }
 

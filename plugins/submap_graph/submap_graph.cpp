@@ -5,6 +5,8 @@
 #include <set>
 #include <span>
 
+#include "plugins/submap_graph/saved_graph.hpp"
+
 namespace cairn::submap_graph {
 namespace {
 
@@ -36,6 +38,14 @@ void gather_points(const Observation& observation, const Config& config, std::ve
   }
 }
 
+SubmapGraph::SubmapGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer,
+                         const RobotModel& robot, const KeptSubmaps* saved, const StartUncertainty& start)
+    : config_(config),
+      sweep_(config.sweep_s),
+      earlier_(saved == nullptr ? KeptSubmaps{} : *saved),
+      graph_(config, T_map_start, std::move(closer), compass_of(config, robot),
+             earlier_part_of(earlier_, config, start)) {}
+
 PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&) {
   gather_points(observation, config_, points_m_);
   if (is_usable(observation.T_odom_robot) || !T_odom_robot_)
@@ -56,33 +66,7 @@ PoseEstimate SubmapGraph::update(const Observation& observation, const KnownMap&
 }
 
 KeptSubmaps SubmapGraph::submaps() const {
-  KeptSubmaps kept;
-  const TiedGraph& graph = graph_.graph();
-  const auto number_of = [](std::size_t node) { return static_cast<std::int64_t>(node); };
-  kept.nodes.reserve(graph.size());
-  for (std::size_t node = 0; node < graph.size(); ++node)
-    kept.nodes.push_back({number_of(node), node_stamps_s_[node], graph_.T_map(node)});
-  kept.edges.reserve(graph.ties().size() + graph.closures().size());
-  for (const PoseEdge& tie : graph.ties())
-    kept.edges.push_back({number_of(tie.from), number_of(tie.to), tie.T_from_to, tie.information, false, true});
-  for (std::size_t i = 0; i < graph.closures().size(); ++i) {
-    const Closure& closure = graph.closures()[i];
-    kept.edges.push_back({number_of(closure.anchor), number_of(closure.node), closure.T_anchor_node,
-                          closure.information, true, graph.is_believed()[i]});
-  }
-  const auto is_unknown = [&](const auto& submap) { return submap->anchor() >= graph.size(); };
-  const auto& all = graph_.local_map().submaps();
-  const auto end = std::find_if(all.begin(), all.end(), is_unknown);
-  const std::span submaps(all.begin(), end);
-  const std::size_t first = submaps.size() - std::min(submaps.size(), KeptSubmaps::kMax);
-  for (std::size_t i = first; i < submaps.size(); ++i) {
-    KeptSubmap submap{.anchor = number_of(submaps[i]->anchor()),
-                      .finished = i < graph_.local_map().finished(),
-                      .cell_m = kFieldCell_m};
-    set_echoes(submap, submaps[i]->points_m());
-    kept.submaps.push_back(std::move(submap));
-  }
-  return kept;
+  return saved_graph(earlier_, graph_, node_stamps_s_, config_);
 }
 
 }  // namespace cairn::submap_graph

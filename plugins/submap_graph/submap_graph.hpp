@@ -2,7 +2,8 @@
 //
 // For robots with a laser, with or without a compass. Each scan is laid on the submap under way; places that were
 // passed before are proposed by the mission's loop closer, believed with a second witness, and the pose graph is
-// solved. Then the pose jumps to where it is in the corrected map, and history() gives the earlier ones.
+// solved. Then the pose jumps to where it is in the corrected map, and history() gives the earlier ones. In a run that
+// goes on with a saved map, its submaps are searched too, and stay where they are.
 //
 //   odometry that is not finite, or      the step is taken as none
 //   beyond 1000 km
@@ -28,12 +29,10 @@ namespace cairn::submap_graph {
 
 class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraphReport {
  public:
-  // closer: null: no loop is closed by a search. robot: whether it has a compass, and what that is worth.
+  // closer: null: no loop is closed by a search. robot: whether it has a compass, and what that is worth. saved: what
+  // earlier runs have left in the map, or null.
   SubmapGraph(const Config& config, const Pose2& T_map_start, std::shared_ptr<LoopCloser> closer,
-              const RobotModel& robot = {})
-      : config_(config),
-        sweep_(config.sweep_s),
-        graph_(config, T_map_start, std::move(closer), compass_of(config, robot)) {}
+              const RobotModel& robot = {}, const KeptSubmaps* saved = nullptr, const StartUncertainty& start = {});
 
   PoseEstimate update(const Observation& observation, const KnownMap& known) override;
   PoseHistory* history() override { return this; }
@@ -46,6 +45,7 @@ class SubmapGraph final : public Localizer, public PoseHistory, public PoseGraph
  private:
   Config config_;
   Sweep sweep_;
+  KeptSubmaps earlier_;  // as it was saved
   LaserGraph graph_;
   std::vector<double> node_stamps_s_;
   std::optional<Pose2> T_odom_robot_;  // the last good one

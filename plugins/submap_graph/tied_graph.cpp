@@ -15,6 +15,7 @@ constexpr double kWorstPart = 0.25;
 constexpr int kMaxRounds = 6;
 constexpr int kMaxIterations = 30;
 constexpr double kRelativeChange = 1e-6;
+constexpr double kMapHeadingInformation = 1e8;  // 1/rad2: the axes of a map that is held do not turn
 
 PoseEdge edge_of(const Closure& closure) {
   return {closure.anchor, closure.node, closure.T_anchor_node, closure.information};
@@ -65,11 +66,43 @@ bool TiedGraph::is_broken(const std::vector<bool>& believed, const PoseGraphSolu
   return pushed_out > static_cast<std::size_t>(newer);
 }
 
+PoseEdge TiedGraph::seen_from_map(PoseEdge edge) const {
+  if (edge.from < held_) {
+    edge.T_from_to = T_map(edge.from) * edge.T_from_to;
+    edge.from = 0;
+  } else {
+    edge.from -= held_ - 1;
+  }
+  edge.to -= held_ - 1;
+  return edge;
+}
+
+PoseGraphSolution TiedGraph::solved_in_map(const PoseGraph& whole) const {
+  const auto first = whole.T_map_node.begin() + static_cast<std::ptrdiff_t>(held_);
+  PoseGraph in_map{{Pose2{}}, {}, {}, whole.expected, whole.errors};
+  in_map.T_map_node.insert(in_map.T_map_node.end(), first, whole.T_map_node.end());
+  in_map.edges.reserve(whole.edges.size());
+  for (const PoseEdge& edge : whole.edges) in_map.edges.push_back(seen_from_map(edge));
+  if (!whole.headings.empty()) in_map.headings.push_back({0, 0.0, kMapHeadingInformation});
+  for (HeadingPrior heading : whole.headings) {
+    heading.node -= held_ - 1;
+    in_map.headings.push_back(heading);
+  }
+  PoseGraphSolution solution = cairn::solve(in_map, {kMaxIterations, kRelativeChange});
+  // The solver may move all nodes together.
+  const Pose2 T_map_solved = inverse(solution.T_map_node.front());
+  std::vector<Pose2> T_map_node(whole.T_map_node.begin(), first);
+  for (std::size_t i = 1; i < solution.T_map_node.size(); ++i)
+    T_map_node.push_back(T_map_solved * solution.T_map_node[i]);
+  solution.T_map_node = std::move(T_map_node);
+  return solution;
+}
+
 PoseGraphSolution TiedGraph::solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const {
   PoseGraph whole{std::move(T_map_node), graph_.edges, graph_.headings, graph_.expected, graph_.errors};
   for (std::size_t i = 0; i < closures_.size(); ++i)
     if (believed[i]) whole.edges.push_back(edge_of(closures_[i]));
-  return cairn::solve(whole, {kMaxIterations, kRelativeChange});
+  return held_ > 0 ? solved_in_map(whole) : cairn::solve(whole, {kMaxIterations, kRelativeChange});
 }
 
 bool TiedGraph::solve() {

@@ -23,7 +23,11 @@ class TiedGraph {
  public:
   // The first node is where it is put; others need ties.
   std::size_t add_node(const Pose2& T_map_node);
-  // Measured in the anchor's frame, with the information there.
+  // The nodes so far, which have no ties, stay where they are for good: together they are the map that others are tied
+  // to.
+  void hold() { held_ = size(); }
+  [[nodiscard]] std::size_t held() const { return held_; }
+  // Measured in the anchor's frame, with the information there; the node is none that is held.
   void tie(std::size_t anchor, std::size_t node, const Pose2& T_anchor_node, const Eigen::Matrix3d& information,
            bool is_odometry = false);
   void add(const Closure& closure);
@@ -51,8 +55,12 @@ class TiedGraph {
   // Whether ties do not fit, or more closures that were believed before do not than newer ones do.
   [[nodiscard]] bool is_broken(const std::vector<bool>& believed, const PoseGraphSolution& solution) const;
   [[nodiscard]] PoseGraphSolution solved_with(const std::vector<bool>& believed, std::vector<Pose2> T_map_node) const;
+  // With the held nodes as one, the map.
+  [[nodiscard]] PoseEdge seen_from_map(PoseEdge edge) const;
+  [[nodiscard]] PoseGraphSolution solved_in_map(const PoseGraph& whole) const;
 
   PoseGraph graph_;  // nodes and ties
+  std::size_t held_ = 0;
   std::vector<Closure> closures_;
   std::vector<bool> is_believed_;
   std::size_t solved_ = 0;  // so many closures were part of the last solution

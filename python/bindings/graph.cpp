@@ -47,7 +47,9 @@ std::vector<PlacedSubmap> submaps_of(const std::shared_ptr<SavedMap>& map) {
   for (const KeptSubmap& submap : kept.submaps) {
     const KeptNode& anchor = nodes.at(submap.anchor);
     std::vector<KeptNode> its{anchor};
-    its.insert(its.end(), tied[submap.anchor].begin(), tied[submap.anchor].end());
+    // A later run may have begun near the anchor, and be tied to it.
+    for (const KeptNode& node : tied[submap.anchor])
+      if (node.number == its.back().number + 1) its.push_back(node);
     submaps.push_back({&submap, anchor, std::move(its), map});
   }
   return submaps;

@@ -128,19 +128,22 @@ SavedMap MissionLoop::map_so_far(ClusterTree clusters) const {
   steps_.describe(progress);
   SavedMap map =
       map_of_mission(mission_, world_.mission_map(), perception_.tracker(), std::move(clusters), std::move(progress));
+  map.submaps = submaps_so_far_;  // in autosaves, which do not wait for this run's
   add_pauses(map, clock_.paused_s());
   steps_.describe(map);
   return map;
 }
 
-// The map is worth more than they are: a module that fails at this costs them only.
-KeptSubmaps MissionLoop::submaps_so_far() {
-  if (ending_.outcome == MissionOutcome::module_fault) return {};
+// The map is worth more than they are: a module that fails at this costs only those of this run. A localizer that keeps
+// none leaves those of earlier runs as they are; their part of the map has not moved.
+KeptSubmaps MissionLoop::submaps_to_save() {
+  if (ending_.outcome == MissionOutcome::module_fault) return submaps_so_far_;
   try {
-    return perception_.submaps();
+    KeptSubmaps submaps = perception_.submaps();
+    return submaps.empty() ? submaps_so_far_ : submaps;
   } catch (const ModuleFault& fault) {
-    publisher_.publish(Message{std::string("the map is saved without its submaps: ") + fault.what()});
-    return {};
+    publisher_.publish(Message{std::string("the map is saved without the submaps of this run: ") + fault.what()});
+    return submaps_so_far_;
   }
 }
 

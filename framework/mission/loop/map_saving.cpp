@@ -103,6 +103,10 @@ Status MapSaving::write(const std::string& file_name) {
   try {
     SavedMap map = content_(planning_.clusters(world_.mission_map()));
     map.submaps = submaps_();
+    if (const std::string fault = fault_of(map.submaps); !fault.empty()) {
+      publisher_.publish(Message{"the map is saved without its submaps: " + fault});
+      map.submaps = {};
+    }
     save_map(options_.folder / file_name, map, Links::replace);
   } catch (const std::exception& error) {
     return {StepState::failure, std::string("the map could not be saved: ") + error.what()};

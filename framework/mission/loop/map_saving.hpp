@@ -23,7 +23,7 @@ class MapSaving {
     bool leaves_map_alone = false;  // nothing is saved
   };
   // All must outlive it. content: the map as it stands, with these clusters. submaps: what whole maps
-  // have besides, autosaves not: it takes a while.
+  // have in the place of the content's, autosaves not: it takes a while.
   MapSaving(const Mission& mission, Options options, Planning& planning, const WorldState& world, Publisher& publisher,
             std::function<SavedMap(ClusterTree)> content, std::function<KeptSubmaps()> submaps);
 

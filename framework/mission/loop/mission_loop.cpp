@@ -13,16 +13,24 @@ Budget budget_of(const RunOptions& options) {
   return budget;
 }
 
+const SavedMap* map_of(const RunOptions& options) {
+  return options.localise_in ? options.localise_in->map : options.resume;
+}
+
 std::optional<LocalizerStart> start_of(const RunOptions& options, const RobotModel& robot) {
-  if (options.T_map_resumed) return LocalizerStart{*options.T_map_resumed, kFoundUncertainty};
+  const auto in_map = [&](const Pose2& T_map_start) {
+    return LocalizerStart{T_map_start, kFoundUncertainty, usable_submaps(map_of(options))};
+  };
+  if (options.T_map_resumed) return in_map(*options.T_map_resumed);
   if (!options.localise_in) return std::nullopt;
-  if (options.localise_in->T_map_start) return LocalizerStart{*options.localise_in->T_map_start, kFoundUncertainty};
+  if (options.localise_in->T_map_start) return in_map(*options.localise_in->T_map_start);
   // A frame of its own, turned as the compass says.
   return LocalizerStart{{}, own_frame(robot)};
 }
 
-const SavedMap* map_of(const RunOptions& options) {
-  return options.localise_in ? options.localise_in->map : options.resume;
+KeptSubmaps submaps_to_begin_with(const RunOptions& options) {
+  const KeptSubmaps* const submaps = usable_submaps(map_of(options));
+  return submaps == nullptr ? KeptSubmaps{} : *submaps;
 }
 
 }  // namespace
@@ -32,6 +40,8 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
       options_(options),
       library_(library),
       grid_so_far_(options.resume != nullptr ? std::optional(options.resume->grid) : std::nullopt),
+      submaps_so_far_(submaps_to_begin_with(options)),
+      submaps_fault_(map_of(options) == nullptr ? std::string() : fault_of(map_of(options)->submaps)),
       budget_(budget_of(options)),
       map_left_alone_(options.localise_in ? std::make_shared<const OccupancyGrid>(options.localise_in->map->grid)
                                           : nullptr),
@@ -52,7 +62,7 @@ MissionLoop::MissionLoop(const Mission& mission, const ModuleLibrary& library, c
           {options.out, options.autosave && !options.localise_in, options.resume != nullptr, options.wall_clock,
            options.localise_in.has_value()},
           planning_, world_, publisher_, [this](ClusterTree clusters) { return map_so_far(std::move(clusters)); },
-          [this] { return submaps_so_far(); }),
+          [this] { return submaps_to_save(); }),
       orders_(options.control == nullptr ? nullptr : &options.control->orders(), options.orders, options.out),
       display_(modules_.display),
       steps_({mission_, modules_.clock, world_, publisher_, monitor_, planning_, saving_, modules_.controller,
@@ -96,6 +106,8 @@ void MissionLoop::run() {
 }
 
 MissionLoop::Ending MissionLoop::loop() {
+  if (!submaps_fault_.empty())
+    publisher_.publish(Message{"the submaps of the saved map are not used: " + submaps_fault_});
   if (!steps_.not_restored().empty()) publisher_.publish(Message{steps_.not_restored()});
   if (options_.control != nullptr) options_.control->publish(status());
   if (steps_.are_done() && monitor_.has_drive()) return {};

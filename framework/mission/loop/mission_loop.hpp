@@ -99,7 +99,7 @@ class MissionLoop {
   bool is_known_already(const Observation& observation);
   void restore(const SavedMap& map);
   [[nodiscard]] SavedMap map_so_far(ClusterTree clusters) const;
-  [[nodiscard]] KeptSubmaps submaps_so_far();
+  [[nodiscard]] KeptSubmaps submaps_to_save();
   void finish();
   void save_last();
   void redraw_map();
@@ -128,6 +128,8 @@ class MissionLoop {
   const RunOptions options_;
   const ModuleLibrary& library_;
   const std::optional<OccupancyGrid> grid_so_far_;  // what the map of a run that goes on began with
+  const KeptSubmaps submaps_so_far_;                // and its submaps, where they can be used
+  const std::string submaps_fault_;                 // why not; empty: they can, or there are none
   const Budget budget_;
   const std::shared_ptr<const OccupancyGrid> map_left_alone_;
   std::optional<LocalisationFigures> localisation_;

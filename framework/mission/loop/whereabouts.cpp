@@ -164,8 +164,9 @@ void MissionLoop::find_itself() {
   localisation_->found_s = world_.time_s;
   localisation_->T_map_robot = T_map_robot;
   end_search();
-  const std::shared_ptr<Localizer> localizer =
-      build_localizer(mission_, library_, {T_map_robot, kFoundUncertainty}, modules_.loop_closer_calls);
+  const std::shared_ptr<Localizer> localizer = build_localizer(
+      mission_, library_, {T_map_robot, kFoundUncertainty, submaps_so_far_.empty() ? nullptr : &submaps_so_far_},
+      modules_.loop_closer_calls);
   if (options_.localise_in) {
     world_.T_map_start = T_map_local * world_.T_map_start;
     world_.exchange_map(perception_.settle(localizer), nullptr);

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <stdexcept>
 
 #include "framework/config/coordinates.hpp"
 #include "framework/mission/modules.hpp"
 #include "maps/base/text.hpp"
+#include "maps/store/repair.hpp"
 
 namespace cairn {
 namespace {
@@ -30,9 +32,20 @@ std::optional<Pose2> pose_given(const RunCommand& command) {
   return pose_of(command.pose);
 }
 
+SavedMap load_map_to_work_with(const std::filesystem::path& file) {
+  try {
+    return load_map(file);
+  } catch (const StoreError& error) {
+    std::optional<SavedMap> map = map_without_damaged_submaps(file);
+    if (!map) throw;
+    std::cerr << error.what() << "; nothing else is damaged: the run does without the submaps\n";
+    return *std::move(map);
+  }
+}
+
 std::optional<MapToLocaliseIn> map_to_localise_in(const RunCommand& command) {
   if (command.localise_in.empty()) return std::nullopt;
-  return MapToLocaliseIn{load_map(command.localise_in), pose_given(command)};
+  return MapToLocaliseIn{load_map_to_work_with(command.localise_in), pose_given(command)};
 }
 
 void begin_with_finding_itself(Mission& mission) {

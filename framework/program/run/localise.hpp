@@ -17,6 +17,10 @@ struct MapToLocaliseIn {
 // --pose, if there is one. Throws std::runtime_error when it is none, or there is no map for it.
 [[nodiscard]] std::optional<Pose2> pose_given(const RunCommand& command);
 
+// A saved map to work with. Where nothing but its submaps is damaged it comes without them, and standard error says so.
+// Throws StoreError.
+[[nodiscard]] SavedMap load_map_to_work_with(const std::filesystem::path& file);
+
 // None unless the command line names one. Throws StoreError, and as pose_given().
 [[nodiscard]] std::optional<MapToLocaliseIn> map_to_localise_in(const RunCommand& command);
 

@@ -95,7 +95,7 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
 // The map to go on from, and its seed when the command line names none.
 std::optional<SavedMap> map_to_resume(const RunCommand& command, std::optional<std::int64_t>& seed) {
   if (command.resume.empty()) return std::nullopt;
-  SavedMap map = load_map(command.resume);
+  SavedMap map = load_map_to_work_with(command.resume);
   if (!seed) seed = refused_about<StoreError>(command.resume.string(), [&] { return seed_of(map); });
   return map;
 }

@@ -7,8 +7,6 @@
 namespace cairn::store {
 namespace {
 
-constexpr double kMaxSubmapCellM = 10.0;
-constexpr auto kMaxNodeNumber = static_cast<std::int64_t>(1'000'000'000);
 constexpr int kMaxCellFromAnchor = KeptSubmap::kMaxSide;
 
 void write_nodes(Database& database, const KeptSubmaps& submaps) {
@@ -33,10 +31,10 @@ bool has_node(const KeptSubmaps& submaps, std::int64_t number) {
 
 KeptSubmap submap_in(const Statement& row) {
   KeptSubmap submap;
-  submap.anchor = row.integer_within(0, 0, kMaxNodeNumber);
+  submap.anchor = row.integer_within(0, 0, KeptSubmaps::kMaxNumber);
   submap.finished = row.integer_within(1, 0, 1) != 0;
   submap.cell_m = row.real(2);
-  if (!(submap.cell_m > 0.0) || submap.cell_m > kMaxSubmapCellM) throw StoreError("cell_m must be in (0, 10]");
+  if (!(submap.cell_m > 0.0) || submap.cell_m > KeptSubmap::kMaxCell_m) throw StoreError("cell_m must be in (0, 10]");
   submap.min_x = static_cast<int>(row.integer_within(3, -kMaxCellFromAnchor, kMaxCellFromAnchor));
   submap.min_y = static_cast<int>(row.integer_within(4, -kMaxCellFromAnchor, kMaxCellFromAnchor));
   submap.width = static_cast<int>(row.integer_within(5, 0, KeptSubmap::kMaxSide));
@@ -52,8 +50,8 @@ KeptSubmap submap_in(const Statement& row) {
 
 KeptEdge edge_in(const Statement& row) {
   KeptEdge edge;
-  edge.from = row.integer_within(1, 0, kMaxNodeNumber);
-  edge.to = row.integer_within(2, 0, kMaxNodeNumber);
+  edge.from = row.integer_within(1, 0, KeptSubmaps::kMaxNumber);
+  edge.to = row.integer_within(2, 0, KeptSubmaps::kMaxNumber);
   edge.T_from_to = row.pose(3);
   int at = 6;
   for (int i = 0; i < 3; ++i)
@@ -66,7 +64,7 @@ KeptEdge edge_in(const Statement& row) {
 void read_nodes(Reading& reading, KeptSubmaps& submaps) {
   reading.rows("submap_nodes", "SELECT * FROM submap_nodes ORDER BY number", [&](Statement& row) {
     if (submaps.nodes.size() >= KeptSubmaps::kMaxNodes) throw StoreError("there are too many nodes");
-    submaps.nodes.push_back({row.integer_within(0, 0, kMaxNodeNumber), row.real(1), row.pose(2)});
+    submaps.nodes.push_back({row.integer_within(0, 0, KeptSubmaps::kMaxNumber), row.real(1), row.pose(2)});
   });
 }
 

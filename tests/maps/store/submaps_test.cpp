@@ -68,6 +68,24 @@ TEST_F(MapStore, SubmapsThatAreDamagedAreRefusedAndLeftOutByRepair) {
   EXPECT_EQ(huge.map.graph, map_with_submaps().graph);
 }
 
+TEST_F(MapStore, AMapOfWhichOnlySubmapsAreDamagedCanBeHadWithoutThem) {
+  const auto after = [&](const std::string& sql) {
+    save_map(file(), map_with_submaps());
+    run_sql(file(), sql);
+    EXPECT_NE(refusal_of(file()), "loaded");
+    return map_without_damaged_submaps(file());
+  };
+  SavedMap expected = map_with_submaps();
+  expected.submaps = {};
+  for (const char* const sql : {"UPDATE submaps SET echoes = x'00' WHERE anchor = 0", "DELETE FROM submap_nodes",
+                                "UPDATE submap_edges SET xx = 1e308"}) {
+    const std::optional<SavedMap> without = after(sql);
+    ASSERT_TRUE(without) << sql;
+    expect_equal(*without, expected);
+  }
+  EXPECT_FALSE(after("DELETE FROM submap_nodes; UPDATE landmarks SET x_m = 7")) << "that is worth a repair";
+}
+
 TEST_F(MapStore, TheSubmapsOfAMapWithADamagedHeaderAreNotForgotten) {
   save_map(file(), map_with_submaps());
   run_sql(file(), "UPDATE submap_edges SET xx = 7 WHERE number = 1");

@@ -61,5 +61,28 @@ TEST(TiedGraph, ASolutionThatBreaksTiesIsUndoneAsAWhole) {
   for (std::size_t i = 0; i < graph.size(); ++i) EXPECT_EQ(graph.T_map(i), before[i]) << i;
 }
 
+TEST(TiedGraph, HeldNodesStayWhereTheyAreAndOthersBendOntoThem) {
+  TiedGraph graph;
+  graph.add_node({1.0, 2.0, radians(30.0)});
+  graph.add_node({4.0, 1.0, radians(-50.0)});
+  graph.hold();
+  const Pose2 T_truth{2.0, 2.0, radians(10.0)};
+  const Pose2 T_believed{2.4, 1.7, radians(12.0)};
+  graph.add_node(T_believed);
+  graph.tie(0, 2, inverse(graph.T_map(0)) * T_believed, Eigen::Vector3d(100.0, 100.0, 800.0).asDiagonal());
+  for (std::size_t i = 3; i < 8; ++i) {
+    graph.add_node(graph.T_map(i - 1) * Pose2{0.5, 0.0, 0.0});
+    graph.tie(i - 1, i, {0.5, 0.0, 0.0}, kStep);
+    const Pose2 T_map_node = T_truth * Pose2{0.5 * static_cast<double>(i - 2), 0.0, 0.0};
+    graph.add({i % 2, i, inverse(graph.T_map(i % 2)) * T_map_node, 10.0 * kClosure, 1.0});
+  }
+  EXPECT_TRUE(graph.solve());
+  EXPECT_EQ(graph.believed(), 5U);
+  EXPECT_EQ(graph.T_map(0), (Pose2{1.0, 2.0, radians(30.0)}));
+  EXPECT_EQ(graph.T_map(1), (Pose2{4.0, 1.0, radians(-50.0)}));
+  EXPECT_LT((graph.T_map(7).position() - (T_truth * Pose2{2.5, 0.0, 0.0}).position()).norm(), 0.02);
+  EXPECT_LT((graph.T_map(2).position() - T_truth.position()).norm(), 0.03);
+}
+
 }  // namespace
 }  // namespace cairn::submap_graph

@@ -97,7 +97,7 @@ class HostFixture : public testing::Test {
     if (!saving_)
       saving_ = std::make_unique<MapSaving>(
           mission_, MapSaving::Options{folder_, autosaves_, is_resumed_, time_}, planning(), world_, publisher_,
-          [this](ClusterTree clusters) { return content(std::move(clusters)); }, [] { return KeptSubmaps{}; });
+          [this](ClusterTree clusters) { return content(std::move(clusters)); }, [this] { return submaps_; });
     return *saving_;
   }
   HostParts host() {
@@ -125,6 +125,7 @@ class HostFixture : public testing::Test {
   bool autosaves_ = false;
   bool is_resumed_ = false;
   MissionProgress progress_;
+  KeptSubmaps submaps_;
   OccupancyGrid grid_ = free_floor();
   LandmarkGraph graph_;
   WorldState world_{mission_.robot, graph_, Pose2{}};

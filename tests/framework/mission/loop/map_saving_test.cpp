@@ -32,6 +32,16 @@ TEST_F(MapSavingTest, AMapThatAStepSavesIsPublishedAndLoadsAgain) {
   EXPECT_EQ(load_map(folder_ / "a.cairn").grid, grid_);
 }
 
+TEST_F(MapSavingTest, SubmapsThatCannotBeTrueDoNotCostTheMap) {
+  submaps_.nodes = {{0, 0.0, {1.0, 2.0, 0.0}}};
+  EXPECT_EQ(saving().save("a.cairn").reason, "saved a.cairn");
+  EXPECT_EQ(load_map(folder_ / "a.cairn").submaps, submaps_);
+  submaps_.edges = {{0, 7, {}}};
+  EXPECT_EQ(saving().save("a.cairn").reason, "saved a.cairn");
+  EXPECT_TRUE(load_map(folder_ / "a.cairn").submaps.empty());
+  EXPECT_THAT(events_.names, Contains(HasSubstr("without its submaps: the edge from 0 to 7 lacks an end")));
+}
+
 TEST_F(MapSavingTest, AStepThatCouldNotSaveIsRememberedToTheEnd) {
   EXPECT_THAT(saving().save("nowhere/a.cairn").reason, StartsWith("the map could not be saved: "));
   EXPECT_THAT(saving().save_last(true), StartsWith("the map could not be saved: "));
