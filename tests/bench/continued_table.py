@@ -4,8 +4,9 @@
     PYTHONPATH=build/release/python tests/bench/continued_table.py OUT [MISSION [TIMES [SECONDS]]]
 
 A mission that patrols for ever (config/missions/patrol_hour.yaml; slam_patrol.yaml for laser SLAM, whose submaps are
-counted too) runs for SECONDS (600), and is then continued from its saved map for as long again, TIMES (10) in all. Each map is compared with that of the second run, by when all places have
-been seen: each occupied cell (p > 0.65) with the nearest occupied cell of the other map, both ways, and the landmarks.
+counted too) runs for SECONDS (600), and is then continued from its saved map for as long again, TIMES (10) in all. Each
+map is compared with that of the second run, by when all places have been seen: each occupied cell (p > 0.65) with the
+nearest occupied cell of the other map, both ways, and the landmarks.
 """
 import json, pathlib, subprocess, sys
 

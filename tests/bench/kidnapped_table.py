@@ -123,6 +123,15 @@ def place_before_tag(places, tag):
             round(math.degrees(aside) + 180 + places.uniform(-20, 20)) % 360)
 
 
+# Its summary; none where the robot cannot start.
+def run_lost(folder, mission, map_file, i):
+    (folder / "mission.yaml").write_text(mission)
+    done = subprocess.run([CAIRN, "run", folder / "mission.yaml", "--out", folder, "--json", "--localize-in", map_file,
+                           "--seed", str(100 + i)], capture_output=True, text=True)
+    summary = json.loads(done.stdout) if done.stdout.startswith("{") else None
+    return None if summary is None or "cannot start" in summary["reason"] else summary
+
+
 def kidnap_at_home(out, home, i, has_markers):
     world = (home / "world.yaml").read_text()
     width, height = (float(word) for word in re.search(r"bounds_m: \[\[0, 0\], \[(\S+), (\S+)\]\]", world).groups())
@@ -141,13 +150,9 @@ def kidnap_at_home(out, home, i, has_markers):
         if plan.returncode != 0:
             continue  # in a wall, or not in the map
         markers = "markers: {detector: {plugin: april_tags, size_m: 0.16}}\n" if has_markers else ""
-        mission = folder / "mission.yaml"
-        mission.write_text(HOME.format(folder=home, x=start[0], y=start[1], angle=angle, markers=markers,
-                                       at_most_m=AT_MOST_M))
-        done = subprocess.run([CAIRN, "run", mission, "--out", folder, "--json", "--localize-in", map_file, "--seed",
-                               str(100 + i)], capture_output=True, text=True)
-        summary = json.loads(done.stdout) if done.stdout.startswith("{") else None
-        if summary is None or "cannot start" in summary["reason"]:
+        mission = HOME.format(folder=home, x=start[0], y=start[1], angle=angle, markers=markers, at_most_m=AT_MOST_M)
+        summary = run_lost(folder, mission, map_file, i)
+        if summary is None:
             continue
         found = summary["localisation"]
         return {"home": home.name, "run": i, "is_before_tag": i % 2 == 1, "has_markers": has_markers,
@@ -168,13 +173,9 @@ def kidnap_in_random_world(out, world, i):
                                "{},{}".format(*RANDOM_WORLD_START_M), "--radius-m", "0.25", "--json"], capture_output=True)
         if plan.returncode != 0:
             continue  # in a wall, or not in the map
-        mission = folder / "mission.yaml"
-        mission.write_text(RANDOM_WORLD.format(root=ROOT, folder=world, x=start[0], y=start[1], angle=angle,
-                                               at_most_m=AT_MOST_M))
-        done = subprocess.run([CAIRN, "run", mission, "--out", folder, "--json", "--localize-in", map_file, "--seed",
-                               str(100 + i)], capture_output=True, text=True)
-        summary = json.loads(done.stdout) if done.stdout.startswith("{") else None
-        if summary is None or "cannot start" in summary["reason"]:
+        mission = RANDOM_WORLD.format(root=ROOT, folder=world, x=start[0], y=start[1], angle=angle, at_most_m=AT_MOST_M)
+        summary = run_lost(folder, mission, map_file, i)
+        if summary is None:
             continue
         landmarks = json.loads(subprocess.run([CAIRN, "map", "info", map_file, "--json"], capture_output=True).stdout)
         found = summary["localisation"]
