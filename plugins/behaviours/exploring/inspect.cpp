@@ -38,13 +38,13 @@ void Inspect::halt() {
 
 Status Inspect::tick(const WorldView& world, BehaviourContext& context) {
   if (!begun_s_) begun_s_ = world.time_s;
-  if (landmark_ == 0) return begin(world, context);
-  const Landmark* const landmark = world.graph.find(landmark_);
-  if (landmark == nullptr) return {StepState::failure, lost(landmark_, world.graph)};
   if (const auto exchange = map_watch_.update(world)) {
     landmark_orbit_.begin_in_new_map(exchange->move);
     follower_.take({});
   }
+  if (landmark_ == 0) return begin(world, context);
+  const Landmark* const landmark = world.graph.find(landmark_);
+  if (landmark == nullptr) return {StepState::failure, lost(landmark_, world.graph)};
   landmark_orbit_.see(world);
   if (world.time_s - *begun_s_ >= config_.at_most_s) {
     if (orbits_ > 0) return finish(*landmark, "time is up");
