@@ -32,7 +32,7 @@ Begun to_known_place(std::unique_ptr<Step> step, const WorldView& world, NamedPl
 Begun begun(const Order& order, std::uint64_t seed, const WorldView& world, NamedPlaces& places) {
   if (order.kind == "goto") {
     auto step = step_of<GoTo, GoToConfig>(order, seed);
-    step->move_with_map();
+    step->move_with_map(world);
     return to_known_place(std::move(step), world, places);
   }
   if (order.kind == "return_home")

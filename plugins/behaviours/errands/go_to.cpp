@@ -38,6 +38,11 @@ GoTo::GoTo(const GoToConfig& config, std::uint64_t seed) : config_(config), seed
   }
 }
 
+void GoTo::move_with_map(const WorldView& world) {
+  moves_with_map_ = true;
+  (void)map_watch_.update(world);
+}
+
 void GoTo::halt() {
   *this = GoTo(config_, seed_);
 }
@@ -54,8 +59,15 @@ void GoTo::begin_in_new_map(const MapMove& move) {
 }
 
 Status GoTo::tick(const WorldView& world, BehaviourContext& context) {
-  if (const auto exchange = map_watch_.update(world); exchange && exchange->move != nullptr)
-    begin_in_new_map(*exchange->move);
+  if (const auto exchange = map_watch_.update(world)) {
+    if (exchange->move != nullptr)
+      begin_in_new_map(*exchange->move);
+    else if (config_.at_m && moves_with_map_)
+      return {StepState::failure,
+              "the map has been drawn anew, and where " + destination(world) + " lies on it is not known"};
+    else
+      goal_.reset();  // looked up anew
+  }
   if (!begun_s_) begun_s_ = world.time_s;
   if (world.time_s - *begun_s_ >= config_.at_most_s)
     return {StepState::failure, "time is up on the way to " + destination(world)};

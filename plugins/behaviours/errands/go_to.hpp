@@ -31,9 +31,9 @@ class GoTo : public Behaviour {
 
   Status tick(const WorldView& world, BehaviourContext& context) override;
   void halt() override;
-  // Its point is a place that somebody saw on the map: when the map is exchanged, it moves along. One that a mission's
-  // file gives does not.
-  void move_with_map() { moves_with_map_ = true; }
+  // Its point is a place that somebody has seen on this map: when the map is exchanged, also before the first tick, it
+  // moves along. One that a mission's file gives does not.
+  void move_with_map(const WorldView& world);
   // Why the place that it goes to is none on this map; empty: it is one.
   [[nodiscard]] std::string unknown_place(const WorldView& world, NamedPlaces& places) const {
     return find_goal(world, places).unknown;

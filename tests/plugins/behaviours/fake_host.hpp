@@ -75,6 +75,8 @@ class FakeHost : public BehaviourContext {
   // Ticks until it says how long it still takes; none when it ends or the time is up before.
   std::optional<double> first_left_s(Behaviour& behaviour, double at_most_s);
 
+  [[nodiscard]] WorldView view(const Observation* seen) const;
+
   // The map is drawn anew, with all places elsewhere by so much, in whole cells; the robot and landmarks come along.
   void move_map(const Point& by_m);
 
@@ -119,7 +121,6 @@ class FakeHost : public BehaviourContext {
   double nearest_solid_m = 1e9;  // over the whole run
 
  private:
-  [[nodiscard]] WorldView view(const Observation* seen) const;
   void reveal();
   void move(const Twist& twist);
   [[nodiscard]] bool can_stand(const Point& p) const;

@@ -66,6 +66,44 @@ TEST_F(AwaitOrdersTest, TakesOrdersWhileTheRobotIsStoppedAndCarriesThemOutAfterw
   EXPECT_LT(to(2.1, 0.6), 0.25) << host_.picture();
 }
 
+// Ordered while the robot is stopped, so that its step is not ticked before the release.
+TEST_F(AwaitOrdersTest, TheOrderedPlaceMovesWithAMapThatIsExchangedWhileTheRobotIsStopped) {
+  std::string stopped_by = "the red button";
+  host_.observe = [&](const FakeHost&) {
+    Observation seen;
+    seen.stopped_by = stopped_by;
+    return seen;
+  };
+  order("goto", "[2.1, 0.6]");
+  (void)tick();
+  host_.move_map({1.0, 0.0});
+  (void)tick();
+  stopped_by.clear();
+  (void)host_.run(step_, 60.0);
+  EXPECT_LT(to(3.1, 0.6), 0.25) << host_.picture();
+}
+
+TEST_F(AwaitOrdersTest, AnOrderWhosePlaceIsLostWithTheMapFails) {
+  std::string stopped_by;
+  host_.observe = [&](const FakeHost&) {
+    Observation seen;
+    seen.stopped_by = stopped_by;
+    return seen;
+  };
+  order("goto", "[2.1, 0.6]");
+  (void)host_.run(step_, 1.0);
+  stopped_by = "the red button";
+  (void)tick();
+  host_.move_map({1.0, 0.0});
+  host_.move_map({-0.5, 0.0});
+  (void)tick();
+  stopped_by.clear();
+  EXPECT_EQ(tick().reason, "waiting for orders");
+  EXPECT_THAT(
+      host_.said,
+      Contains(HasSubstr("failed: the map has been drawn anew, and where (2.10, 0.60) lies on it is not known")));
+}
+
 TEST_F(AwaitOrdersTest, GoesToThePlaceThatIsOrderedAndWaitsAgain) {
   order("goto", "[2.1, 0.6]");
   EXPECT_THAT(tick().reason, HasSubstr("order {goto: [2.1, 0.6]}: "));
