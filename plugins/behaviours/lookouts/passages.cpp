@@ -285,6 +285,10 @@ void PassageSettings::describe(Fields<PassageSettings>& fields) {
                 "metres of path that a wall is looked at later for each look at the wall beside it");
   fields.number("beside_m", &C::beside_m, {0.0, 100.0}, "m", "within this");
   fields.integer("max_suspects", &C::max_suspects, {0.0, 1e4}, "at most so many walls are looked at again");
+  fields.number(
+      "dared_ratio", &C::dared_ratio, {0.0, 10.0}, "",
+      "when nothing else is left, one that was heard to be at least this share of the robot's width is driven "
+      "into once, slowly, though it is too narrow: echoes tell the least that is open");
   fields.integer("max_tries", &C::max_tries, {0.0, 100.0}, "how often a passage is tried before it is given up");
   fields.integer("max_passes", &C::max_passes, {1.0, 1000.0},
                  "how often one is driven through again on the way to something behind it");

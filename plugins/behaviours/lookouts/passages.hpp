@@ -34,6 +34,7 @@ struct PassageSettings {
   double beside_m = 2.0;
   int max_suspects = 8;
   int max_tries = 2;
+  double dared_ratio = 0.5;
   int max_passes = 8;
   OpeningEchoSettings echoes;
   NearEchoSettings passed{

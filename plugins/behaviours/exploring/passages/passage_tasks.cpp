@@ -92,13 +92,32 @@ std::optional<ExploreTask> PassageTasks::next(const Explored& explored, const Po
     task.path = explored.space.path_to(explored.space.cell_at(task.lookout));
     return task;
   }
-  if (suspects_ >= settings_.max_suspects) return std::nullopt;
+  if (suspects_ >= settings_.max_suspects) return next_dare(explored);
   PassageSearch hidden{true, looked_at()};
   const auto suspect = nearest_passage(explored.map, explored.passed, reach, robot, hidden, settings_);
-  if (!suspect) return std::nullopt;
+  if (!suspect) return next_dare(explored);
   ExploreTask task = look_at(*suspect);
   task.is_suspect = true;
   return task;
+}
+
+bool PassageTasks::is_worth_daring(const HeardOpening& heard, double radius_m) const {
+  return heard.is_heard && heard.width_m >= settings_.dared_ratio * 2.0 * radius_m;
+}
+
+// Those that the map draws shut, so that no search finds them again.
+std::optional<ExploreTask> PassageTasks::next_dare(const Explored& explored) {
+  if (!has_retried_) return std::nullopt;
+  for (Tried& tried : tried_) {
+    if (tried.is_given_up || !tried.is_too_narrow) continue;
+    if (!tried.heard) tried.heard = tried.heard_before;
+    tried.is_given_up = !tried.heard || !is_worth_daring(*tried.heard, explored.radius_m);
+    if (tried.is_given_up) continue;
+    ExploreTask task = drive_through(*tried.heard, explored.radius_m);
+    task.path = explored.space.path_to(explored.space.cell_at(task.lookout));
+    return task;
+  }
+  return std::nullopt;
 }
 
 void PassageTasks::record_unreachable(const ExploreTask& task) {
@@ -125,7 +144,9 @@ std::optional<ExploreTask> PassageTasks::record_look(const ExploreTask& task, co
   const double min_clearance_m =
       drive_.clearances_m.empty() ? 0.0 : *std::min_element(drive_.clearances_m.begin(), drive_.clearances_m.end());
   tried.is_too_narrow = tried.heard->width_m + drive_.width_error_m < 2.0 * (radius_m + min_clearance_m);
-  if (!tried.is_too_narrow) return drive_through(*tried.heard, radius_m);
+  // What was heard is the least that is open. When nothing else is left a drive tells.
+  const bool is_dared = has_retried_ && tried.tries == 0 && is_worth_daring(*tried.heard, radius_m);
+  if (!tried.is_too_narrow || is_dared) return drive_through(*tried.heard, radius_m);
   tried.is_given_up = true;
   tried.why = too_narrow(radius_m);
   return std::nullopt;
@@ -145,11 +166,30 @@ void PassageTasks::record(const ExploreTask& task, bool has_passed, const std::s
   ++tried.tries;
   tried.passes += has_passed ? 1 : 0;
   tried.failures = has_passed ? 0 : tried.failures + 1;
-  tried.why = why;
+  tried.is_too_narrow = tried.is_too_narrow && !has_passed;
+  if (!tried.is_too_narrow) tried.why = why;
   tried.was_passed = tried.was_passed || has_passed;
   // One that was passed and is still not known to be open is not driven through for ever.
   tried.is_given_up = !has_passed || tried.tries >= settings_.max_tries;
-  if (!has_passed && has_retried_ && tried.tries < settings_.max_tries) look_again(tried);
+  if (has_passed || !has_retried_) return;
+  if (tried.is_too_narrow)
+    dare_beside(tried);
+  else if (tried.tries < settings_.max_tries)
+    look_again(tried);
+}
+
+// What was heard may lie at either side of what is open.
+void PassageTasks::dare_beside(Tried& tried) {
+  constexpr double kBeside_m = 0.12;
+  constexpr int kDares = 3;  // in the middle, then beside it
+  if (tried.tries >= kDares || !tried.heard) return;
+  HeardOpening& heard = *tried.heard;
+  const Point ahead = (heard.middle_m - heard.from_m).normalized();
+  const Point aside_m = (tried.tries == 1 ? kBeside_m : -2.0 * kBeside_m) * Point(-ahead.y(), ahead.x());
+  heard.middle_m += aside_m;
+  heard.from_m += aside_m;
+  tried.at_m = heard.middle_m;
+  tried.is_given_up = false;
 }
 
 std::optional<ExploreTask> PassageTasks::passed_on(const std::vector<Point>& path, double radius_m) const {

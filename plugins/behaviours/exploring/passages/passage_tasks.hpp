@@ -85,6 +85,9 @@ class PassageTasks {
   [[nodiscard]] const Tried* given_up_beside(const Point& at_m) const;
   void forget_unreachable();
   static void look_again(Tried& tried);
+  [[nodiscard]] bool is_worth_daring(const HeardOpening& heard, double radius_m) const;
+  [[nodiscard]] std::optional<ExploreTask> next_dare(const Explored& explored);
+  static void dare_beside(Tried& tried);
   [[nodiscard]] Tried& at(const Point& at_m);
   [[nodiscard]] std::vector<Point> looked_at() const {
     return places_where([](const Tried& t) { return t.is_given_up || t.heard; });

@@ -144,7 +144,7 @@ TEST(PassageTasks, AGapThatIsHeardToBeNarrowIsLookedAtOnceMoreFromNearerAndTheWi
   Passing passing(2);
   const Point first = passing.next()->lookout;
   const Point gap = passing.next()->about;
-  EXPECT_FALSE(passing.look(0.3));
+  EXPECT_FALSE(passing.look(0.15));
   EXPECT_TRUE(passing.tasks.retry());
   EXPECT_TRUE(passing.tasks.closed().empty()) << "not before it was looked at again";
   const std::optional<ExploreTask> again = passing.next();
@@ -152,13 +152,56 @@ TEST(PassageTasks, AGapThatIsHeardToBeNarrowIsLookedAtOnceMoreFromNearerAndTheWi
   EXPECT_EQ(again->kind, TaskKind::opening);
   EXPECT_LT((again->lookout - gap).norm(), (first - gap).norm());
   EXPECT_FALSE(passing.look(0.1));
-  EXPECT_DOUBLE_EQ(passing.not_entered()[0].width_m, 0.3);
+  EXPECT_DOUBLE_EQ(passing.not_entered()[0].width_m, 0.15);
   EXPECT_FALSE(passing.next());
   EXPECT_FALSE(passing.tasks.retry());
   Passing door(2);
   EXPECT_FALSE(door.look(0.26));
   EXPECT_TRUE(door.tasks.retry());
   EXPECT_TRUE(door.look(0.7)) << "the first look had missed most of it";
+}
+
+// Looked at, and once more when nothing else was left. The drive into it.
+ExploreTask dared(Passing& passing, double heard_m) {
+  EXPECT_FALSE(passing.look(heard_m));
+  EXPECT_TRUE(passing.tasks.retry());
+  return passing.look(heard_m).value();
+}
+
+TEST(PassageTasks, AtTheEndAGapHeardHalfAsWideAsTheRobotIsDrivenIntoInTheMiddleAndAtBothSidesOfIt) {
+  Passing passing(2);
+  const ExploreTask first = dared(passing, 0.3);
+  EXPECT_EQ(first.kind, TaskKind::passage);
+  const Point ahead = (first.about - first.lookout).normalized();
+  const auto aside_m = [&](const ExploreTask& task) {
+    return (task.about - first.about).dot(Point(-ahead.y(), ahead.x()));
+  };
+  passing.tasks.record(first, false, "blocked");
+  const ExploreTask second = passing.next().value();
+  EXPECT_NEAR(aside_m(second), 0.12, 1e-9);
+  passing.tasks.record(second, false, "blocked");
+  const ExploreTask third = passing.next().value();
+  EXPECT_NEAR(aside_m(third), -0.12, 1e-9);
+  passing.tasks.record(third, false, "blocked");
+  EXPECT_FALSE(passing.next());
+  EXPECT_EQ(passing.not_entered().at(0).why, "too narrow for 0.40 m");
+}
+
+TEST(PassageTasks, AGapThatWasDaredAndPassedIsNotTooNarrow) {
+  Passing passing(2);
+  passing.tasks.record(dared(passing, 0.3), true, {});
+  EXPECT_TRUE(passing.tasks.closed().empty());
+  EXPECT_TRUE(passing.not_entered().empty());
+}
+
+TEST(PassageTasks, AGapThatTheMapDrawsShutMeanwhileIsDaredToo) {
+  Passing passing(2);
+  EXPECT_FALSE(passing.look(0.3));
+  EXPECT_TRUE(passing.tasks.retry());
+  passing.map = AsciiGrid(room(0));
+  const std::optional<ExploreTask> task = passing.next();
+  ASSERT_TRUE(task);
+  EXPECT_EQ(task->kind, TaskKind::passage);
 }
 
 TEST(PassageTasks, OneThatTheRobotCannotGetToIsReportedAsThat) {
