@@ -21,11 +21,11 @@ Correction BackEnd::add(const Stretch& stretch) {
   // In a run that goes on the first closures count at once: until then it is where the start pose says.
   const bool is_first = graph_.held() > 0 && solved_closures_ == 0 && !graph_.closures().empty();
   const bool is_due = is_first || graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
-  return correction(is_due && is_news() && solve());
+  return correction(is_due && has_new_evidence() && solve());
 }
 
 // Of closures; where single scans say nothing of the heading, of the compass too.
-bool BackEnd::is_news() const {
+bool BackEnd::has_new_evidence() const {
   return graph_.closures().size() > solved_closures_ || (config_.gather_m > 0.0 && graph_.has_headings());
 }
 
@@ -58,7 +58,7 @@ void BackEnd::search_again(std::size_t node, std::span<const std::shared_ptr<con
 }
 
 Correction BackEnd::solve_last() {
-  return correction((!graph_.closures().empty() || is_news()) && solve());
+  return correction((!graph_.closures().empty() || has_new_evidence()) && solve());
 }
 
 bool BackEnd::solve() {

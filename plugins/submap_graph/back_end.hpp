@@ -58,7 +58,7 @@ class BackEnd {
  private:
   void add(const NewNode& node);
   void add_found(Closure closure);
-  [[nodiscard]] bool is_news() const;
+  [[nodiscard]] bool has_new_evidence() const;
   [[nodiscard]] bool solve();
   [[nodiscard]] Correction correction(bool is_moved) const;
 
