@@ -76,6 +76,9 @@ TEST(SavedGraph, EarlierNodesStayWhereTheyWereAndTheNewOnesAreTiedToThem) {
   ASSERT_EQ(fault_of(second.saved), "");
   const std::int64_t last_earlier = first.nodes.back().number;
   EXPECT_GT(second.saved.nodes.back().number, last_earlier + 20);
+  EXPECT_FALSE(std::ranges::binary_search(second.saved.nodes, last_earlier + 1, {}, &KeptNode::number))
+      << "a gap: no submap holds nodes of two runs";
+  EXPECT_TRUE(std::ranges::binary_search(second.saved.nodes, last_earlier + 2, {}, &KeptNode::number));
   std::size_t kept = 0;
   for (const KeptNode& node : second.saved.nodes) {
     const auto before = std::ranges::find(first.nodes, node.number, &KeptNode::number);
