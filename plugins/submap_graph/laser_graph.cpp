@@ -138,7 +138,12 @@ void LaserGraph::finish_search() {
   if (!search_) return;
   std::future<Correction> answer = std::move(search_->answer);
   search_.reset();
-  take(answer.get());
+  try {
+    take(answer.get());
+  } catch (...) {
+    is_finished_ = true;  // the back end lacks nodes for good
+    throw;
+  }
 }
 
 // Nodes that came meanwhile keep their place beside the last one that was solved.
