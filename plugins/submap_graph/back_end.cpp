@@ -12,7 +12,7 @@ BackEnd::BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const
   if (config.gather_m > 0.0) graph_.expect_odometry(config.odometry_length_bias_ratio, config.odometry_turn_bias_ratio);
   for (const Pose2& T_map_node : earlier.T_map_node) graph_.add_node(T_map_node);
   graph_.hold();
-  closures_.hold(earlier.T_map_node);
+  closures_.hold(earlier.T_map_node, start_drift_m(earlier));
 }
 
 Correction BackEnd::add(const Stretch& stretch) {
@@ -71,6 +71,7 @@ bool BackEnd::solve() {
 Correction BackEnd::correction(bool is_moved) const {
   Correction correction;
   correction.trusted_at_m = closures_.trusted_at_m();
+  correction.start_drift_m = closures_.start_drift_m();
   if (!is_moved) return correction;
   correction.T_map_node.reserve(graph_.size());
   for (std::size_t node = 0; node < graph_.size(); ++node) correction.T_map_node.push_back(graph_.T_map(node));

@@ -114,6 +114,22 @@ TEST(SavedGraph, ARobotThatDrivesWhereItHasBeenAddsNothingInTheEnd) {
   EXPECT_LE(saved.nodes.size(), 8 * submaps[5]);
 }
 
+// Of the second scan.
+double variance_m2(const KeptSubmaps& earlier, const StartUncertainty& start) {
+  const Config config;
+  LaserGraph graph(config, {1.0, 1.0, 0.0}, nullptr, {}, earlier_part_of(earlier, config, start));
+  const std::vector<DrawnWall> walls = ring_walls();
+  for (std::uint64_t scan = 1; scan <= 2; ++scan)
+    graph.add(seen_from(walls, {1.0, 1.0, 0.0}, kScanBeams, 0.01, scan), {}, 0.5 * static_cast<double>(scan));
+  return graph.covariance()(0, 0);
+}
+
+TEST(SavedGraph, ThePoseIsNoSurerThanTheStartOfTheRunInTheMapBeforeALoopCloses) {
+  const StartUncertainty start{0.5, radians(5.0)};
+  EXPECT_NEAR(variance_m2(first_saved(), start), variance_m2(first_saved(), {}) + 0.25, 1e-9);
+  EXPECT_DOUBLE_EQ(variance_m2({}, start), variance_m2({}, {})) << "it begins the map";
+}
+
 TEST(SavedGraph, SonarsGoOnFromEarlierSubmapsToo) {
   Config config;
   config.gather_m = 5.0;
