@@ -223,7 +223,10 @@ std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleL
   return build<Localizer>(
       library, mission.config.localizer,
       {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes, start.uncertainty,
-       [&] { return build_loop_closer(mission, library, loop_closer_calls); }, start.saved_submaps});
+       [&mission, &library, calls = std::move(loop_closer_calls)] {
+         return build_loop_closer(mission, library, calls);
+       },
+       start.saved_submaps});
 }
 
 std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,
