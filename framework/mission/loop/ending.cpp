@@ -94,8 +94,8 @@ void MissionLoop::finish() {
   if (is_check_open() && check_->cause)
     publisher_.publish(
         Message{"the mission ends while it is checked whether the robot was carried: its place is in doubt"});
+  save_last();  // first: searches may take a while
   ending_searches_.wait();
-  save_last();
 }
 
 void MissionLoop::save_last() {
