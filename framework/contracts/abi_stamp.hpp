@@ -32,7 +32,7 @@ struct AbiStamp {
   char build[16];  // "release", "debug"
   std::uint32_t eigen_align;
   std::uint32_t contracts;  // kContractsVersion
-  std::uint32_t sizes[37];  // of the exchanged types, as this_abi_stamp() lists them
+  std::uint32_t sizes[39];  // of the exchanged types, as this_abi_stamp() lists them
 };
 
 // Raised whenever the signature of an interface or an exchanged type changes: sizes need not show that.
@@ -76,7 +76,7 @@ constexpr void copy(char (&out)[N], std::string_view text) {
       sizeof(Status),        sizeof(ControlRequest),   sizeof(ControlResult),
       sizeof(CameraImage),   sizeof(MarkerSighting),   sizeof(CameraModel),
       sizeof(LoopQuery),     sizeof(LoopProposal),     sizeof(PassedSubmap),
-      sizeof(Submap),
+      sizeof(Submap),        sizeof(MapMove),          sizeof(KeptSubmaps),
   };
   static_assert(sizeof sizes == sizeof stamp.sizes);
   for (std::size_t i = 0; i < std::size(sizes); ++i) stamp.sizes[i] = sizes[i];

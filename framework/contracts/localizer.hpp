@@ -74,8 +74,8 @@ struct LocalizerContext : ModuleContext {
   Pose2 T_map_start{};                               // where the robot begins
   std::span<const LandmarkShape> landmark_shapes{};  // the outlines that the mission's templates describe
   StartUncertainty start_uncertainty{};
-  // Makes the mission's loop closer (loop_closer.hpp), a new one each time. Only a localizer that closes loops calls
-  // it, so others have none built. What it throws must pass. Empty: there is none, so no loop is closed by a search.
+  // Makes the mission's loop closer, a new one each time; for the time of the call only. Localizers that close no loops
+  // do not call it, so have none built. What it throws must pass. Empty: there is none: no loop is closed by a search.
   std::function<std::shared_ptr<LoopCloser>()> loop_closer{};
   // What a localizer that keeps them (PoseGraphReport) has left in the map that the run goes on with; null: nothing. In
   // the map's frame, which stays. For the time of the call only.

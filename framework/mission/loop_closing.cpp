@@ -22,8 +22,13 @@ class CountedCall {
 std::string fault_of_all(const std::vector<LoopProposal>& proposals, std::size_t submaps) {
   if (proposals.size() > submaps)
     return fmt::format("proposed {} loops where it was asked for {} submaps", proposals.size(), submaps);
-  for (const LoopProposal& proposal : proposals)
+  std::vector<bool> is_proposed(submaps);
+  for (const LoopProposal& proposal : proposals) {
     if (std::string fault = fault_of(proposal, submaps); !fault.empty()) return fault;
+    if (is_proposed[proposal.submap])
+      return fmt::format("proposed two loops with submap {} of {}", proposal.submap + 1, submaps);
+    is_proposed[proposal.submap] = true;
+  }
   return {};
 }
 

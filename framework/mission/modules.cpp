@@ -1,9 +1,8 @@
 #include "framework/mission/modules.hpp"
 
-#include <algorithm>
-
 #include "framework/behaviour_tree/parameters.hpp"
 #include "framework/contracts/optional/marker_families.hpp"
+#include "framework/mission/making_errors.hpp"
 #include "framework/mission/named_values.hpp"
 #include "framework/mission/resume.hpp"
 #include "framework/mission/start_wait.hpp"
@@ -84,28 +83,6 @@ void add_detector(const Mission& mission, const ModuleLibrary& library, double c
   built.detector =
       build<Detector>(library, detector, {context_for(mission, library, PluginKind::detector), built.templates});
 }
-
-// What making modules throws, each once.
-class MakingErrors {
- public:
-  template <class Make>
-  void attempt(Make make) {
-    try {
-      make();
-    } catch (const ConfigError& error) {
-      for (const ConfigError& one : each_of(error)) add(one.what());
-    } catch (const ModuleFault& fault) {
-      add(fault.what());
-    }
-  }
-  void add(const char* error) {
-    if (std::ranges::find(errors_, error) == errors_.end()) errors_.emplace_back(error);
-  }
-  [[nodiscard]] std::vector<std::string> take() && { return std::move(errors_); }
-
- private:
-  std::vector<std::string> errors_;
-};
 
 // The default one is made only for a localizer that takes it.
 bool is_chosen(const PluginChoice& loop_closer) {
@@ -246,7 +223,10 @@ std::shared_ptr<Localizer> build_localizer(const Mission& mission, const ModuleL
   return build<Localizer>(
       library, mission.config.localizer,
       {context_for(mission, library, PluginKind::localizer), start.T_map_start, mission.shapes, start.uncertainty,
-       [&] { return build_loop_closer(mission, library, loop_closer_calls); }, start.saved_submaps});
+       [&mission, &library, calls = std::move(loop_closer_calls)] {
+         return build_loop_closer(mission, library, calls);
+       },
+       start.saved_submaps});
 }
 
 std::shared_ptr<Mapper> build_map(const Mission& mission, const ModuleLibrary& library,

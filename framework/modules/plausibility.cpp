@@ -84,6 +84,8 @@ std::string fault_of(const LoopProposal& proposal, std::size_t submaps) {
   const Eigen::Matrix3d& information = proposal.information;
   if (!cairn::is_finite(proposal.T_submap_node) || !information.allFinite() || !std::isfinite(proposal.score))
     return "proposed a loop that is not finite";
+  if (proposal.score < 0.0 || proposal.score > 1.0)
+    return fmt::format("proposed a loop with a score of {:g}, which is not within 0 to 1", proposal.score);
   const double off_m = proposal.T_submap_node.position().norm();
   if (off_m > kMaxPlace_m) return fmt::format("proposed a loop over {:g} m", off_m);
   if (!information.isApprox(information.transpose(), 1e-6) || information.llt().info() != Eigen::Success)

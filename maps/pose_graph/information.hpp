@@ -7,7 +7,7 @@ namespace cairn {
 
 // Covariance with a floor: what is measured is never better than that.
 [[nodiscard]] Eigen::Matrix3d with_floor(const Eigen::Matrix3d& information, double floor_m, double floor_rad);
-// As it is in a frame turned by -angle.
+// As it is in a frame turned by -angle; a covariance is turned alike.
 [[nodiscard]] Eigen::Matrix3d information_in_turned(const Eigen::Matrix3d& information, double angle_rad);
 
 }  // namespace cairn

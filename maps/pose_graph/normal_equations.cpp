@@ -119,11 +119,11 @@ void NormalEquations::add_expected(const SensorErrors& errors) {
   const double sigma_rad = innovation_sigma_rad(expected);
   const double information = 1.0 / (sigma_rad * sigma_rad);
   for (int row = rows_.first_local + 1; row < rows_.end; ++row) {
-    const double news_rad = bias_rad(row) - kept * bias_rad(row - 1);
-    add_value(row, news_rad, sigma_rad);
+    const double innovation_rad = bias_rad(row) - kept * bias_rad(row - 1);
+    add_value(row, innovation_rad, sigma_rad);
     triplets_.emplace_back(row, row - 1, -kept * information);
     triplets_.emplace_back(row - 1, row - 1, kept * kept * information);
-    gradient_[row - 1] -= kept * information * news_rad;
+    gradient_[row - 1] -= kept * information * innovation_rad;
   }
 }
 

@@ -1,8 +1,9 @@
 #include "maps/submaps/kept_submaps.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace cairn {
 namespace {
@@ -13,21 +14,45 @@ bool has_node(const KeptSubmaps& submaps, std::int64_t number) {
   return std::ranges::binary_search(submaps.nodes, number, {}, &KeptNode::number);
 }
 
-std::optional<std::string> fault_of(const KeptSubmap& submap) {
-  const std::string name = "submap " + std::to_string(submap.anchor);
-  const bool is_grid = submap.width >= 0 && submap.height >= 0 && submap.width <= KeptSubmap::kMaxSide &&
-                       submap.height <= KeptSubmap::kMaxSide;
-  if (!is_grid ||
-      submap.echoes.size() != static_cast<std::size_t>(submap.width) * static_cast<std::size_t>(submap.height))
-    return name + " has other cells than it says";
-  if (!(submap.cell_m > 0.0 && submap.cell_m <= KeptSubmap::kMaxCell_m) ||
-      std::abs(submap.min_x) > KeptSubmap::kMaxSide || std::abs(submap.min_y) > KeptSubmap::kMaxSide)
-    return name + " has impossible cells";
-  return std::nullopt;
+std::string fault_of(const KeptSubmap& submap) {
+  const auto& [anchor, finished, cell_m, min_x, min_y, width, height, echoes] = submap;
+  const std::string name = fmt::format("submap {}", anchor);
+  constexpr int kMaxSide = KeptSubmap::kMaxSide;
+  if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide)
+    return fmt::format("{} says {} x {} cells; 0 x 0 to {} x {} are allowed", name, width, height, kMaxSide, kMaxSide);
+  if (echoes.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+    return fmt::format("{} says {} x {} cells and holds {}", name, width, height, echoes.size());
+  if (!(cell_m > 0.0 && cell_m <= KeptSubmap::kMaxCell_m))
+    return fmt::format("{} has cells of {:g} m; more than 0 and at most {:g} m are allowed", name, cell_m,
+                       KeptSubmap::kMaxCell_m);
+  if (std::abs(min_x) > kMaxSide || std::abs(min_y) > kMaxSide)
+    return fmt::format("{} begins at cell ({}, {}); -{} to {} are allowed", name, min_x, min_y, kMaxSide, kMaxSide);
+  return {};
 }
 
 bool is_in_a_map(const Pose2& pose) {
   return is_finite(pose) && std::abs(pose.x_m) <= kMaxPlace_m && std::abs(pose.y_m) <= kMaxPlace_m;
+}
+
+std::string fault_of(const KeptNode& node) {
+  constexpr std::int64_t kMaxNumber = KeptSubmaps::kMaxNumber / 2;
+  const auto& [number, stamp_s, T_map_node] = node;
+  if (number < 0 || number > kMaxNumber)
+    return fmt::format("the number of node {} is none of 0 to {}, which leave numbers for more", number, kMaxNumber);
+  if (!std::isfinite(stamp_s)) return fmt::format("node {} has the time {}, which is not finite", number, stamp_s);
+  if (!is_in_a_map(T_map_node))
+    return fmt::format("node {} is at ({:g}, {:g}) m, {:g} rad; finite ones up to {:g} m are allowed", number,
+                       T_map_node.x_m, T_map_node.y_m, T_map_node.theta_rad, kMaxPlace_m);
+  return {};
+}
+
+std::string fault_of(const KeptEdge& edge, const KeptSubmaps& submaps) {
+  const std::string name = fmt::format("the edge from {} to {}", edge.from, edge.to);
+  for (const std::int64_t end : {edge.from, edge.to})
+    if (!has_node(submaps, end)) return fmt::format("{} lacks an end: there is no node {}", name, end);
+  if (!is_finite(edge.T_from_to) || !edge.information.allFinite())
+    return name + " has a relation or an information that is not finite";
+  return {};
 }
 
 }  // namespace
@@ -83,22 +108,18 @@ std::span<const KeptNode> nodes_of(const KeptSubmaps& submaps, const KeptSubmap&
 
 std::string fault_of(const KeptSubmaps& submaps) {
   for (std::size_t i = 0; i < submaps.nodes.size(); ++i) {
-    const KeptNode& node = submaps.nodes[i];
-    const std::string name = "node " + std::to_string(node.number);
-    if (node.number < 0 || node.number > KeptSubmaps::kMaxNumber / 2) return name + " leaves no numbers for more";
-    if (!std::isfinite(node.stamp_s)) return name + " has no time";
-    if (!is_in_a_map(node.T_map_node)) return name + " is beyond all maps";
-    if (i > 0 && submaps.nodes[i - 1].number >= node.number) return name + " comes twice, or too late";
+    if (std::string fault = fault_of(submaps.nodes[i]); !fault.empty()) return fault;
+    if (i > 0 && submaps.nodes[i - 1].number >= submaps.nodes[i].number)
+      return fmt::format("node {} follows node {}: numbers must rise", submaps.nodes[i].number,
+                         submaps.nodes[i - 1].number);
   }
   for (const KeptSubmap& submap : submaps.submaps) {
-    if (const auto fault = fault_of(submap)) return *fault;
-    if (!has_node(submaps, submap.anchor)) return "submap " + std::to_string(submap.anchor) + " has no anchor";
+    if (std::string fault = fault_of(submap); !fault.empty()) return fault;
+    if (!has_node(submaps, submap.anchor))
+      return fmt::format("submap {} has no anchor: there is no node {}", submap.anchor, submap.anchor);
   }
   for (const KeptEdge& edge : submaps.edges)
-    if (!edge.information.allFinite() || !is_finite(edge.T_from_to) || !has_node(submaps, edge.from) ||
-        !has_node(submaps, edge.to))
-      return "the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
-             " lacks an end, or says nothing";
+    if (std::string fault = fault_of(edge, submaps); !fault.empty()) return fault;
   return {};
 }
 

@@ -12,7 +12,7 @@ BackEnd::BackEnd(const Config& config, std::shared_ptr<LoopCloser> closer, const
   if (config.gather_m > 0.0) graph_.expect_odometry(config.odometry_length_bias_ratio, config.odometry_turn_bias_ratio);
   for (const Pose2& T_map_node : earlier.T_map_node) graph_.add_node(T_map_node);
   graph_.hold();
-  closures_.hold(earlier.T_map_node);
+  closures_.hold(earlier.T_map_node, start_drift_m(earlier));
 }
 
 Correction BackEnd::add(const Stretch& stretch) {
@@ -21,11 +21,11 @@ Correction BackEnd::add(const Stretch& stretch) {
   // In a run that goes on the first closures count at once: until then it is where the start pose says.
   const bool is_first = graph_.held() > 0 && solved_closures_ == 0 && !graph_.closures().empty();
   const bool is_due = is_first || graph_.size() > solved_at_node_ + static_cast<std::size_t>(config_.solve_every_nodes);
-  return correction(is_due && is_news() && solve());
+  return correction(is_due && has_new_evidence() && solve());
 }
 
 // Of closures; where single scans say nothing of the heading, of the compass too.
-bool BackEnd::is_news() const {
+bool BackEnd::has_new_evidence() const {
   return graph_.closures().size() > solved_closures_ || (config_.gather_m > 0.0 && graph_.has_headings());
 }
 
@@ -58,7 +58,7 @@ void BackEnd::search_again(std::size_t node, std::span<const std::shared_ptr<con
 }
 
 Correction BackEnd::solve_last() {
-  return correction((!graph_.closures().empty() || is_news()) && solve());
+  return correction((!graph_.closures().empty() || has_new_evidence()) && solve());
 }
 
 bool BackEnd::solve() {
@@ -71,6 +71,7 @@ bool BackEnd::solve() {
 Correction BackEnd::correction(bool is_moved) const {
   Correction correction;
   correction.trusted_at_m = closures_.trusted_at_m();
+  correction.start_drift_m = closures_.start_drift_m();
   if (!is_moved) return correction;
   correction.T_map_node.reserve(graph_.size());
   for (std::size_t node = 0; node < graph_.size(); ++node) correction.T_map_node.push_back(graph_.T_map(node));

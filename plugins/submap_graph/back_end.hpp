@@ -38,6 +38,7 @@ struct Stretch {
 struct Correction {
   std::vector<Pose2> T_map_node;  // of all nodes so far; none: nothing has moved
   double trusted_at_m = 0.0;      // the way at which the pose was last tied to a place passed before
+  double start_drift_m = 0.0;     // how far off its beginning may be
 };
 
 class BackEnd {
@@ -58,7 +59,7 @@ class BackEnd {
  private:
   void add(const NewNode& node);
   void add_found(Closure closure);
-  [[nodiscard]] bool is_news() const;
+  [[nodiscard]] bool has_new_evidence() const;
   [[nodiscard]] bool solve();
   [[nodiscard]] Correction correction(bool is_moved) const;
 

@@ -12,7 +12,8 @@ constexpr double kChi2_95 = 7.81;  // of three degrees of freedom
 
 }  // namespace
 
-void Closures::hold(std::span<const Pose2> T_map_node) {
+void Closures::hold(std::span<const Pose2> T_map_node, double start_drift_m) {
+  start_drift_m_ = start_drift_m;
   held_ = T_map_node.size();
   T_local_node_.assign(T_map_node.begin(), T_map_node.end());
   driven_m_.assign(held_, 0.0);
@@ -106,9 +107,11 @@ std::vector<Closure> Closures::close(std::size_t node, const TiedGraph& graph,
   if (!closer_) return {};
   const std::vector<PassedSubmap> submaps = passed(node, graph, finished);
   LoopQuery query = query_of(node, graph, submaps);
-  query.drift_m = config_.drift_ratio * (driven_m_[node] - trusted_at_m_);
+  query.drift_m = start_drift_m_ + config_.drift_ratio * (driven_m_[node] - trusted_at_m_);
   std::vector<Closure> believed = believed_of(query, budget);
-  if (!believed.empty()) trusted_at_m_ = driven_m_[node];
+  if (believed.empty()) return believed;
+  trusted_at_m_ = driven_m_[node];
+  start_drift_m_ = 0.0;
   return believed;
 }
 

@@ -18,8 +18,9 @@ class Closures {
   // closer: null: none are found.
   Closures(const Config& config, std::shared_ptr<LoopCloser> closer) : config_(config), closer_(std::move(closer)) {}
 
-  // Before all others: nodes whose places in the map are fixed, so that the way does not lead over them.
-  void hold(std::span<const Pose2> T_map_node);
+  // Before all others: nodes whose places in the map are fixed, so that the way does not lead over them. start_drift_m:
+  // how far from where it is said to be the way may begin.
+  void hold(std::span<const Pose2> T_map_node, double start_drift_m);
   // For each node, in order.
   void add_node(std::span<const Point> points_m, const Pose2& T_local_node);
   // Closures of the node that are to be believed now: its own, and waiting ones for which it is the second witness.
@@ -32,6 +33,8 @@ class Closures {
 
   // The way at which the pose was last tied to a place that was passed before.
   [[nodiscard]] double trusted_at_m() const { return trusted_at_m_; }
+  // How far from where it was said to be the way may have begun; 0 after the first closure.
+  [[nodiscard]] double start_drift_m() const { return start_drift_m_; }
 
  private:
   struct Waiting {
@@ -54,6 +57,7 @@ class Closures {
   std::vector<double> driven_m_;
   std::size_t held_ = 0;  // so many nodes are fixed
   double trusted_at_m_ = 0.0;
+  double start_drift_m_ = 0.0;
   std::vector<Waiting> waiting_;
 };
 

@@ -32,6 +32,10 @@ EarlierPart earlier_part_of(const KeptSubmaps& saved, const Config& config, cons
   return earlier;
 }
 
+double start_drift_m(const EarlierPart& earlier) {
+  return earlier.T_map_node.empty() ? 0.0 : 3.0 * earlier.start.position_m;
+}
+
 LocalMap::Tie start_tie(const EarlierPart& earlier, const Pose2& T_map_start) {
   const auto away_m = [&](const Pose2& pose) { return (pose.position() - T_map_start.position()).norm(); };
   const auto nearest = std::ranges::min_element(earlier.T_map_node, {}, away_m);

@@ -23,6 +23,9 @@ struct EarlierPart {
 // start: of this run. There must be no fault (fault_of()).
 [[nodiscard]] EarlierPart earlier_part_of(const KeptSubmaps& saved, const Config& config,
                                           const StartUncertainty& start);
+// How far the start pose may be off, as the drift on the way counts it: three deviations. 0 without earlier nodes,
+// where the start is the map's origin.
+[[nodiscard]] double start_drift_m(const EarlierPart& earlier);
 // What is known of a run's first node without a closure: where the start pose is said to be, from the nearest node.
 [[nodiscard]] LocalMap::Tie start_tie(const EarlierPart& earlier, const Pose2& T_map_start);
 

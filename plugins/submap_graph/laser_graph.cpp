@@ -27,6 +27,7 @@ LaserGraph::LaserGraph(const Config& config, const Pose2& T_map_start, std::shar
       local_map_(config),
       gathered_(config.gather_m),
       T_map_node_(earlier_.T_map_node),
+      start_drift_m_(start_drift_m(earlier_)),
       finished_nodes_(earlier_.T_map_node.size()),
       T_map_start_(T_map_start),
       back_end_(std::make_unique<BackEnd>(config, std::move(closer), compass, earlier_)) {}
@@ -81,12 +82,14 @@ void LaserGraph::see(const MarkerSighting& sighting) {
     stretch_.closures.push_back(*closure);
 }
 
-// The match's, and the drift since the last closure: a third of the window's growth, which is of three deviations.
+// The match's, the start's until the first closure, and the drift since the last one: a third of the window's growth,
+// which is of three deviations.
 Eigen::Matrix3d LaserGraph::covariance_in_map(const LocalPose& local) const {
   const double turn_rad = T_map_node_.back().theta_rad - local_map_.T_older_node().theta_rad;
   Eigen::Matrix3d covariance = information_in_turned(floored(local.information).inverse(), -turn_rad);
   const double drift_m = config_.drift_ratio / 3.0 * (driven_m_ - trusted_at_m_);
-  covariance.diagonal().head<2>().array() += drift_m * drift_m;
+  const double start_m = start_drift_m_ / 3.0;
+  covariance.diagonal().head<2>().array() += start_m * start_m + drift_m * drift_m;
   return 0.5 * (covariance + covariance.transpose());
 }
 
@@ -138,12 +141,18 @@ void LaserGraph::finish_search() {
   if (!search_) return;
   std::future<Correction> answer = std::move(search_->answer);
   search_.reset();
-  take(answer.get());
+  try {
+    take(answer.get());
+  } catch (...) {
+    is_finished_ = true;  // the back end lacks nodes for good
+    throw;
+  }
 }
 
 // Nodes that came meanwhile keep their place beside the last one that was solved.
 void LaserGraph::take(const Correction& correction) {
   trusted_at_m_ = correction.trusted_at_m;
+  start_drift_m_ = correction.start_drift_m;
   const std::vector<Pose2>& solved = correction.T_map_node;
   if (solved.empty()) return;
   const Pose2 moved = solved.back() * inverse(T_map_node_[solved.size() - 1]);

@@ -95,6 +95,7 @@ class LaserGraph {
   std::vector<Pose2> T_map_node_;
   double driven_m_ = 0.0;  // to the latest node
   double trusted_at_m_ = 0.0;
+  double start_drift_m_;      // until then
   std::size_t finished_ = 0;  // submaps that the back end knows
   std::uint64_t revision_ = 0;
   std::size_t finished_nodes_ = 0;

@@ -1,7 +1,8 @@
 #include "plugins/submap_graph/marker_closures.hpp"
 
 #include <Eigen/LU>
-#include <cmath>
+
+#include "maps/pose_graph/information.hpp"
 
 namespace cairn::submap_graph {
 namespace {
@@ -10,20 +11,12 @@ constexpr std::size_t kMinNodes = 12;      // between two places that a marker t
 constexpr double kSightingFloor_m = 0.03;  // of the way between node and sighting
 constexpr double kSightingFloor_rad = radians(0.5);
 
-Eigen::Matrix3d in_turned_axes(const Eigen::Matrix3d& covariance, double angle_rad) {
-  const double c = std::cos(angle_rad);
-  const double s = std::sin(angle_rad);
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() << c, -s, s, c;
-  return turn * covariance * turn.transpose();
-}
-
 // Errors of a pose that stands at the end of T, as errors of where T begins from there.
 Eigen::Matrix3d seen_from_start(const Eigen::Matrix3d& at_end, const Pose2& T) {
   Eigen::Matrix3d arm = Eigen::Matrix3d::Identity();
   arm(0, 2) = T.y_m;
   arm(1, 2) = -T.x_m;
-  return arm * in_turned_axes(at_end, T.theta_rad) * arm.transpose();
+  return arm * information_in_turned(at_end, -T.theta_rad) * arm.transpose();
 }
 
 }  // namespace
@@ -32,7 +25,7 @@ std::optional<Closure> MarkerClosures::see(const MarkerSighting& sighting, std::
                                            const Pose2& T_node_robot) {
   if (sighting.mirrored) return std::nullopt;
   Seen seen{node, T_node_robot * sighting.pose.T_robot_marker,
-            in_turned_axes(sighting.pose.covariance, T_node_robot.theta_rad)};
+            information_in_turned(sighting.pose.covariance, -T_node_robot.theta_rad)};
   seen.covariance.diagonal() +=
       Eigen::Vector3d(kSightingFloor_m * kSightingFloor_m, kSightingFloor_m * kSightingFloor_m,
                       kSightingFloor_rad * kSightingFloor_rad);
@@ -41,8 +34,8 @@ std::optional<Closure> MarkerClosures::see(const MarkerSighting& sighting, std::
   if (is_new || node == track.last_node || node < track.first.node + kMinNodes) return std::nullopt;
   track.last_node = node;
   const Seen& first = track.first;
-  const Eigen::Matrix3d at_marker = in_turned_axes(first.covariance, -first.T_node_marker.theta_rad) +
-                                    in_turned_axes(seen.covariance, -seen.T_node_marker.theta_rad);
+  const Eigen::Matrix3d at_marker = information_in_turned(first.covariance, first.T_node_marker.theta_rad) +
+                                    information_in_turned(seen.covariance, seen.T_node_marker.theta_rad);
   const Eigen::Matrix3d information = seen_from_start(at_marker, seen.T_node_marker).inverse();
   return Closure{first.node, node, first.T_node_marker * inverse(seen.T_node_marker),
                  0.5 * (information + information.transpose()), 1.0};

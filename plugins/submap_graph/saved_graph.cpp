@@ -10,11 +10,12 @@ namespace {
 // Finer than what scans are searched in: a later run aligns its scans with these echoes.
 constexpr double kSavedCell_m = 0.05;
 
-// A run's nodes are numbered on from the earlier ones.
+// A run's nodes are numbered on from the earlier ones, behind a gap: its first ones are none of the submap that the
+// last run was in (nodes_of()).
 class Numbers {
  public:
   explicit Numbers(const KeptSubmaps& earlier)
-      : earlier_(earlier), next_(earlier.empty() ? 0 : earlier.nodes.back().number + 1) {}
+      : earlier_(earlier), next_(earlier.empty() ? 0 : earlier.nodes.back().number + 2) {}
   [[nodiscard]] std::int64_t of(std::size_t node) const {
     const std::size_t held = earlier_.nodes.size();
     return node < held ? earlier_.nodes[node].number : next_ + static_cast<std::int64_t>(node - held);

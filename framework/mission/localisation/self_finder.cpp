@@ -61,7 +61,7 @@ void SelfFinder::update(const Observation& observation, const Pose2& T_local_rob
   running_ = Search{std::async(std::launch::async, search), T_local_robot, time_s, belief_.driven_m()};
 }
 
-std::shared_ptr<void> SelfFinder::let_go() {
+std::shared_ptr<std::future<SelfFinder::Answer>> SelfFinder::let_go() {
   if (!running_) return nullptr;
   auto search = std::make_shared<std::future<Answer>>(std::move(running_->answer));
   running_.reset();

@@ -9,6 +9,7 @@
 // markers or from places some way apart, from pictures that leave no second pose open.
 #pragma once
 
+#include <chrono>
 #include <future>
 #include <memory>
 #include <optional>
@@ -43,6 +44,10 @@ inline constexpr StartUncertainty kFoundUncertainty{0.1, radians(2.0)};
 
 class SelfFinder {
  public:
+  struct Answer {
+    std::vector<PoseHypothesis> found;
+    std::optional<PoseHypothesis> believed;
+  };
   // The map must stay as it is.
   SelfFinder(std::shared_ptr<const OccupancyGrid> map, const RobotModel& robot);
 
@@ -62,17 +67,13 @@ class SelfFinder {
     return by_marker_ ? by_marker_ : belief_.T_map_local();
   }
   // The search under way, as something whose destructor waits for its end; null: there is none. Its answer is lost.
-  [[nodiscard]] std::shared_ptr<void> let_go();
+  [[nodiscard]] std::shared_ptr<std::future<Answer>> let_go();
   // All but found_s and T_map_robot.
   [[nodiscard]] LocalisationFigures figures() const;
 
   static constexpr double kAnswerAfter_s = 1.0;
 
  private:
-  struct Answer {
-    std::vector<PoseHypothesis> found;
-    std::optional<PoseHypothesis> believed;
-  };
   struct Search {
     std::future<Answer> answer;
     Pose2 T_local_robot;
@@ -109,15 +110,19 @@ class SelfFinder {
 // Searches that go on though nobody needs their answers.
 class EndingSearches {
  public:
-  // Null: nothing.
-  void add(std::shared_ptr<void> search) {
+  using Search = std::shared_ptr<std::future<SelfFinder::Answer>>;
+  // Null: none. Those that have ended are dropped, each with its map.
+  void add(Search search) {
+    std::erase_if(searches_, [](const Search& ending) {
+      return ending->wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
     if (search) searches_.push_back(std::move(search));
   }
   // Until all have ended.
   void wait() { searches_.clear(); }
 
  private:
-  std::vector<std::shared_ptr<void>> searches_;
+  std::vector<Search> searches_;
 };
 
 }  // namespace cairn

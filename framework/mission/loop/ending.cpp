@@ -94,8 +94,8 @@ void MissionLoop::finish() {
   if (is_check_open() && check_->cause)
     publisher_.publish(
         Message{"the mission ends while it is checked whether the robot was carried: its place is in doubt"});
+  save_last();  // first: searches may take a while
   ending_searches_.wait();
-  save_last();
 }
 
 void MissionLoop::save_last() {
@@ -140,6 +140,7 @@ KeptSubmaps MissionLoop::submaps_to_save() {
   if (ending_.outcome == MissionOutcome::module_fault) return submaps_so_far_;
   try {
     KeptSubmaps submaps = perception_.submaps();
+    if (const std::string fault = fault_of(submaps); !fault.empty()) throw modules_.localizer.fault(fault);
     return submaps.empty() ? submaps_so_far_ : submaps;
   } catch (const ModuleFault& fault) {
     publisher_.publish(Message{std::string("the map is saved without the submaps of this run: ") + fault.what()});

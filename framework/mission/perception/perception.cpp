@@ -222,12 +222,14 @@ bool Perception::finish() {
   if (history_ == nullptr || past_.size() == 0) return false;
   while (!budget_.cancelled() && modules_.localizer.call([&](Localizer&) { return history_->finish_part(); })) {
   }
-  return correct_past(0) > 0.0;
+  const double moved_m = correct_past(0);
+  frame_.correct(moved_m, past_.poses().back().T_map_robot, corrected_.back());
+  return moved_m > 0.0;
 }
 
 KeptSubmaps Perception::submaps() {
   const auto* const report = dynamic_cast<const PoseGraphReport*>(history_);
-  if (report == nullptr) return {};
+  if (report == nullptr || frame_.is_outdated()) return {};
   KeptSubmaps submaps = modules_.localizer.call([&](Localizer&) { return report->submaps(); });
   keep_latest(submaps);
   return submaps;

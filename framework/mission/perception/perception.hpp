@@ -80,7 +80,8 @@ class Perception {
   const OccupancyGrid& redraw(std::shared_ptr<Mapper> map);
   // What that has done to the landmarks, if recognise() has not reported it; once.
   [[nodiscard]] std::vector<Event> take_moved_landmarks();
-  // What the localizer knows of submaps; none from one that has none.
+  // What the localizer knows of submaps; none from one that has none, nor while the map waits to be drawn where they
+  // are.
   [[nodiscard]] KeptSubmaps submaps();
   [[nodiscard]] const Past& past() const { return past_; }
   // A localizer that corrects its past.

@@ -109,6 +109,36 @@ TEST_F(MissionModulesTest, ADefaultLoopCloserThatIsNotInstalledIsMissedByWhoTake
   EXPECT_THROW((void)build_modules(mission_, library), ConfigError);
 }
 
+// Proposes these, whatever it is asked.
+class FixedCloser : public LoopCloser {
+ public:
+  explicit FixedCloser(std::vector<LoopProposal> proposals) : proposals_(std::move(proposals)) {}
+  std::vector<LoopProposal> propose(const LoopQuery&, const Budget&) override { return proposals_; }
+
+ private:
+  std::vector<LoopProposal> proposals_;
+};
+
+std::string fault_of_proposals(std::vector<LoopProposal> proposals) {
+  FencedLoopCloser closer(std::make_shared<FixedCloser>(std::move(proposals)), "fixed_closer",
+                          std::make_shared<CallsUnderWay>(0));
+  const std::vector<PassedSubmap> submaps(2);
+  LoopQuery query;
+  query.submaps = submaps;
+  try {
+    (void)closer.propose(query, Budget{});
+  } catch (const ModuleFault& fault) {
+    return fault.what();
+  }
+  return {};
+}
+
+TEST(FencedLoopCloser, TwoProposalsForOneSubmapAreAFault) {
+  EXPECT_EQ(fault_of_proposals({LoopProposal{1, {}}, LoopProposal{0, {}}}), "");
+  EXPECT_EQ(fault_of_proposals({LoopProposal{1, {}}, LoopProposal{1, {}}}),
+            "module fixed_closer failed in stage loop closer: proposed two loops with submap 2 of 2");
+}
+
 TEST_F(MissionModulesTest, ACheckMakesANamedLoopCloserWhoeverTakesIt) {
   mission_.config.loop_closer.name = "no_closer";
   EXPECT_THAT(check_modules(mission_, library_that_closes()), ElementsAre(HasSubstr("no_closer")));

@@ -129,6 +129,10 @@ TEST(Plausibility, ALoopThatCannotBeIsAFault) {
   bad = good;
   bad.score = kNan;
   EXPECT_EQ(fault_of(bad, 1), "proposed a loop that is not finite");
+  bad.score = 1.5;
+  EXPECT_EQ(fault_of(bad, 1), "proposed a loop with a score of 1.5, which is not within 0 to 1");
+  bad.score = -0.1;
+  EXPECT_NE(fault_of(bad, 1), "");
   bad = good;
   bad.T_submap_node.x_m = 1e9;
   EXPECT_EQ(fault_of(bad, 1), "proposed a loop over 1e+09 m");

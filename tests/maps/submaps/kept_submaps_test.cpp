@@ -11,7 +11,9 @@ namespace cairn {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
+using testing::StrEq;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<Point> wall(double from_x_m, double to_x_m) {
   std::vector<Point> points_m;
@@ -105,17 +107,26 @@ TEST(KeptSubmapsFault, SaysWhyARunCannotGoOnWithThem) {
     change(submaps);
     return fault_of(submaps);
   };
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.nodes[1].T_map_node.x_m = 1e18; }), HasSubstr("node 1 is beyond all maps"));
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.nodes[1].number = 0; }), HasSubstr("node 0 comes twice"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.nodes[1].T_map_node.x_m = 1e18; }),
+              StrEq("node 1 is at (1e+18, 0) m, 0 rad; finite ones up to 1e+06 m are allowed"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.nodes[1].number = 0; }), StrEq("node 0 follows node 0: numbers must rise"));
   EXPECT_THAT(after([](KeptSubmaps& s) { s.nodes.back().number = KeptSubmaps::kMaxNumber; }),
-              HasSubstr("leaves no numbers for more"));
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.nodes[1].stamp_s = std::numeric_limits<double>::infinity(); }),
-              HasSubstr("node 1 has no time"));
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[0].width = 3; }), HasSubstr("submap 0 has other cells"));
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[0].width = -1; }), HasSubstr("submap 0 has other cells"));
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[0].cell_m = 0.0; }), HasSubstr("submap 0 has impossible cells"));
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[1].anchor = 7; }), HasSubstr("submap 7 has no anchor"));
-  EXPECT_THAT(after([](KeptSubmaps& s) { s.edges[0].to = 7; }), HasSubstr("the edge from 0 to 7 lacks an end"));
+              StrEq("the number of node 1000000000 is none of 0 to 500000000, which leave numbers for more"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.nodes[1].stamp_s = kInfinity; }),
+              StrEq("node 1 has the time inf, which is not finite"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[0].width = 3; }), StrEq("submap 0 says 3 x 1 cells and holds 80"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[0].width = -1; }),
+              StrEq("submap 0 says -1 x 1 cells; 0 x 0 to 2048 x 2048 are allowed"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[0].cell_m = 0.0; }),
+              StrEq("submap 0 has cells of 0 m; more than 0 and at most 10 m are allowed"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[0].min_y = 5000; }),
+              StrEq("submap 0 begins at cell (0, 5000); -2048 to 2048 are allowed"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.submaps[1].anchor = 7; }),
+              StrEq("submap 7 has no anchor: there is no node 7"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.edges[0].to = 7; }),
+              StrEq("the edge from 0 to 7 lacks an end: there is no node 7"));
+  EXPECT_THAT(after([](KeptSubmaps& s) { s.edges[0].information(0, 1) = kInfinity; }),
+              StrEq("the edge from 0 to 1 has a relation or an information that is not finite"));
 }
 
 }  // namespace

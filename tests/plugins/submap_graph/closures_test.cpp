@@ -55,14 +55,15 @@ TEST_F(ClosuresTest, AnotherPlaceGivesNoClosureWhateverIsBelieved) {
   }
 }
 
-// Records what it is asked, and proposes nothing.
+// Records what it is asked, and proposes nothing but what it is given.
 class RecordingCloser : public LoopCloser {
  public:
   std::vector<LoopProposal> propose(const LoopQuery& query, const Budget&) override {
     asked.push_back(query);
     submaps.emplace_back(query.submaps.begin(), query.submaps.end());
-    return {};
+    return proposed;
   }
+  std::vector<LoopProposal> proposed;
   std::vector<LoopQuery> asked;
   std::vector<std::vector<PassedSubmap>> submaps;
 };
@@ -101,6 +102,28 @@ TEST_F(ClosuresTest, TheCloserHearsWhereTheNodeIsBelievedToBeAndHowFarThatMayBeO
   EXPECT_NEAR(closer->submaps[0][0].distance_m, (graph_.T_map(last).position() - Point(7.0, 1.0)).norm(), 1e-9);
   EXPECT_TRUE(closer->asked[1].is_afterwards);
   EXPECT_TRUE(closer->asked[1].max_turn_rad.has_value());
+}
+
+TEST_F(ClosuresTest, ARunThatGoesOnLooksAroundAsFarAsItsStartMayBeOffUntilALoopCloses) {
+  const std::vector<Pose2> held = {{3.0, 1.0, 0.0}};
+  const auto closer = std::make_shared<RecordingCloser>();
+  closures_ = Closures(Config{}, closer);
+  closures_.hold(held, 1.5);
+  graph_ = {};
+  graph_.add_node(held.front());
+  const auto submap = std::make_shared<Submap>(0, 0.1);
+  submap->add(0, {}, {});
+  const std::vector<std::shared_ptr<const Submap>> submaps = {submap};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pose2 pose{4.0 + 2.0 * static_cast<double>(i), 1.0, 0.0};
+    closures_.add_node({}, pose);
+    closer->proposed = {LoopProposal{0, inverse(held.front()) * pose}};
+    (void)closures_.close(graph_.add_node(pose), graph_, submaps, Budget{});
+  }
+  ASSERT_EQ(closer->asked.size(), 3U);
+  EXPECT_NEAR(closer->asked[0].drift_m, 1.5, 1e-9);
+  EXPECT_NEAR(closer->asked[1].drift_m, 1.5 + 0.03 * 2.0, 1e-9);
+  EXPECT_NEAR(closer->asked[2].drift_m, 0.03 * 2.0, 1e-9) << "the second closure has found a witness";
 }
 
 TEST_F(ClosuresTest, WithoutACloserThereAreNone) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "tests/plugins/submap_graph/driven_ring.hpp"
 #include "tests/plugins/submap_graph/usual_closer.hpp"
@@ -138,6 +139,35 @@ class ThrowingCloser : public LoopCloser {
 
 TEST(LaserGraph, WhatALoopCloserThrowsInItsThreadComesOutWithAScan) {
   EXPECT_THROW((void)driven(ring_drive(2, 0.0, 0.0), std::make_shared<ThrowingCloser>()), std::runtime_error);
+}
+
+// Once: the host still lets the localizer finish then.
+class OnceThrowingCloser : public LoopCloser {
+ public:
+  std::vector<LoopProposal> propose(const LoopQuery& query, const Budget&) override {
+    if (!query.submaps.empty() && !std::exchange(has_thrown_, true)) throw std::runtime_error("no such place");
+    return {};
+  }
+
+ private:
+  bool has_thrown_ = false;
+};
+
+TEST(LaserGraph, AfterAFaultInItsThreadNothingIsLeftToFinish) {
+  const std::vector<DrivenScan> drive = ring_drive(2, 0.0, 0.0);
+  LaserGraph graph({}, drive.front().T_map_robot, std::make_shared<OnceThrowingCloser>());
+  const std::vector<DrawnWall> walls = ring_walls();
+  std::uint64_t scans = 0;
+  const auto drive_on = [&] {
+    for (const DrivenScan& scan : drive) {
+      ++scans;
+      graph.add(seen_from(walls, scan.T_map_robot, kBeams, 0.01, scans), scan.T_odom_robot,
+                kPeriod_s * static_cast<double>(scans));
+    }
+  };
+  EXPECT_THROW(drive_on(), std::runtime_error);
+  EXPECT_FALSE(graph.finish_part());
+  EXPECT_EQ(graph.poses().size(), scans - 1) << "all but the scan that it came out with";
 }
 
 // Searches until nobody waits any more.

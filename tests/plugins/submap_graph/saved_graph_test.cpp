@@ -76,6 +76,9 @@ TEST(SavedGraph, EarlierNodesStayWhereTheyWereAndTheNewOnesAreTiedToThem) {
   ASSERT_EQ(fault_of(second.saved), "");
   const std::int64_t last_earlier = first.nodes.back().number;
   EXPECT_GT(second.saved.nodes.back().number, last_earlier + 20);
+  EXPECT_FALSE(std::ranges::binary_search(second.saved.nodes, last_earlier + 1, {}, &KeptNode::number))
+      << "a gap: no submap holds nodes of two runs";
+  EXPECT_TRUE(std::ranges::binary_search(second.saved.nodes, last_earlier + 2, {}, &KeptNode::number));
   std::size_t kept = 0;
   for (const KeptNode& node : second.saved.nodes) {
     const auto before = std::ranges::find(first.nodes, node.number, &KeptNode::number);
@@ -109,6 +112,22 @@ TEST(SavedGraph, ARobotThatDrivesWhereItHasBeenAddsNothingInTheEnd) {
   }
   EXPECT_LE(submaps[5], submaps[3] + 2);
   EXPECT_LE(saved.nodes.size(), 8 * submaps[5]);
+}
+
+// Of the second scan.
+double variance_m2(const KeptSubmaps& earlier, const StartUncertainty& start) {
+  const Config config;
+  LaserGraph graph(config, {1.0, 1.0, 0.0}, nullptr, {}, earlier_part_of(earlier, config, start));
+  const std::vector<DrawnWall> walls = ring_walls();
+  for (std::uint64_t scan = 1; scan <= 2; ++scan)
+    graph.add(seen_from(walls, {1.0, 1.0, 0.0}, kScanBeams, 0.01, scan), {}, 0.5 * static_cast<double>(scan));
+  return graph.covariance()(0, 0);
+}
+
+TEST(SavedGraph, ThePoseIsNoSurerThanTheStartOfTheRunInTheMapBeforeALoopCloses) {
+  const StartUncertainty start{0.5, radians(5.0)};
+  EXPECT_NEAR(variance_m2(first_saved(), start), variance_m2(first_saved(), {}) + 0.25, 1e-9);
+  EXPECT_DOUBLE_EQ(variance_m2({}, start), variance_m2({}, {})) << "it begins the map";
 }
 
 TEST(SavedGraph, SonarsGoOnFromEarlierSubmapsToo) {

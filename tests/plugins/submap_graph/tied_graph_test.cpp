@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace cairn::submap_graph {
 namespace {
 
@@ -82,6 +84,32 @@ TEST(TiedGraph, HeldNodesStayWhereTheyAreAndOthersBendOntoThem) {
   EXPECT_EQ(graph.T_map(1), (Pose2{4.0, 1.0, radians(-50.0)}));
   EXPECT_LT((graph.T_map(7).position() - (T_truth * Pose2{2.5, 0.0, 0.0}).position()).norm(), 0.02);
   EXPECT_LT((graph.T_map(2).position() - T_truth.position()).norm(), 0.03);
+}
+
+TEST(TiedGraph, HeldNodesStayWhereTheyAreWhileTheBiasOfTheNewOnesCompassIsFound) {
+  TiedGraph graph;
+  graph.add_node({1.0, 2.0, radians(30.0)});
+  graph.add_node({4.0, 1.0, radians(-50.0)});
+  graph.hold();
+  graph.expect_compass(radians(30.0), radians(3.0), 0.9);
+  const Pose2 T_truth{2.0, 2.0, radians(10.0)};
+  const double bias_rad = radians(20.0);
+  graph.add_node({2.1, 1.9, radians(12.0)});
+  graph.tie(0, 2, inverse(graph.T_map(0)) * graph.T_map(2), Eigen::Vector3d(100.0, 100.0, 800.0).asDiagonal());
+  for (std::size_t i = 3; i < 12; ++i) {
+    graph.add_node(graph.T_map(i - 1) * Pose2{0.5, 0.0, 0.0});
+    graph.tie(i - 1, i, {0.5, 0.0, 0.0}, kStep);
+    graph.add_heading({i, T_truth.theta_rad + bias_rad, 1.0 / (radians(2.0) * radians(2.0)), (i - 3) / 3});
+    const Pose2 T_map_node = T_truth * Pose2{0.5 * static_cast<double>(i - 2), 0.0, 0.0};
+    graph.add({i % 2, i, inverse(graph.T_map(i % 2)) * T_map_node, 10.0 * kClosure, 1.0});
+  }
+  EXPECT_TRUE(graph.solve());
+  EXPECT_EQ(graph.believed(), 9U);
+  EXPECT_EQ(graph.T_map(0), (Pose2{1.0, 2.0, radians(30.0)}));
+  EXPECT_EQ(graph.T_map(1), (Pose2{4.0, 1.0, radians(-50.0)}));
+  EXPECT_LT((graph.T_map(11).position() - (T_truth * Pose2{4.5, 0.0, 0.0}).position()).norm(), 0.02);
+  EXPECT_NEAR(graph.T_map(11).theta_rad, T_truth.theta_rad, radians(0.5)) << "not as the compass says";
+  EXPECT_NEAR(std::abs(graph.errors().compass_rad), bias_rad, radians(1.0));
 }
 
 }  // namespace

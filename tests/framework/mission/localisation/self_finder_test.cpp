@@ -33,6 +33,20 @@ TEST(SelfFinder, ASearchThatNobodyNeedsAnyMoreOutlivesTheFinder) {
   EXPECT_TRUE(searched.expired());
 }
 
+TEST(SelfFinder, ASearchThatHasEndedIsDroppedWithTheNextOne) {
+  auto map = std::make_shared<const OccupancyGrid>(room());
+  const std::weak_ptr<const OccupancyGrid> searched = map;
+  std::optional<SelfFinder> finder(std::in_place, std::move(map), RobotModel{});
+  begin_search(*finder, room());
+  EndingSearches ending;
+  ending.add(finder->let_go());
+  finder.reset();
+  EXPECT_FALSE(searched.expired());
+  const auto at_most = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!searched.expired() && std::chrono::steady_clock::now() < at_most) ending.add(nullptr);
+  EXPECT_TRUE(searched.expired());
+}
+
 TEST(SelfFinder, AnswersAreThoseOfSearchesThatItHasNotLetGo) {
   SelfFinder finder(std::make_shared<const OccupancyGrid>(room()), RobotModel{});
   begin_search(finder, room());

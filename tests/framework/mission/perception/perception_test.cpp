@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 
+#include "framework/contracts/optional/pose_graph_report.hpp"
 #include "tests/framework/mission/still_modules.hpp"
 
 namespace cairn {
@@ -24,7 +26,7 @@ class OffsetLocalizer : public Localizer {
 };
 
 // Finds out at some time that all poses so far were off by so much.
-class CorrectingLocalizer : public OffsetLocalizer, public PoseHistory {
+class CorrectingLocalizer : public OffsetLocalizer, public PoseHistory, public PoseGraphReport {
  public:
   PoseEstimate update(const Observation& observation, const KnownMap& known) override {
     PoseEstimate pose = OffsetLocalizer::update(observation, known);
@@ -40,6 +42,11 @@ class CorrectingLocalizer : public OffsetLocalizer, public PoseHistory {
   }
   [[nodiscard]] std::vector<Pose2> poses() const override { return poses_; }
   [[nodiscard]] std::uint64_t revision() const override { return revision_; }
+  [[nodiscard]] KeptSubmaps submaps() const override {
+    KeptSubmaps submaps;
+    for (const Pose2& pose : poses_) submaps.nodes.push_back({std::ssize(submaps.nodes), 0.0, pose});
+    return submaps;
+  }
   bool finish_part() override {
     if (parts_left == 0) return false;
     if (--parts_left == 0) correct(0.02);
@@ -119,7 +126,7 @@ class PerceptionTest : public testing::Test {
   Perception& perception() {
     if (!perception_) {
       modules_ = std::make_unique<StagedModules>(built_, mission_, std::make_shared<SteadyClock>());
-      perception_ = std::make_unique<Perception>(mission_, *modules_, Budget{});
+      perception_ = std::make_unique<Perception>(mission_, *modules_, Budget{.cancel = &is_cancelled_});
     }
     return *perception_;
   }
@@ -140,6 +147,7 @@ class PerceptionTest : public testing::Test {
   const std::shared_ptr<OffsetLocalizer> localizer_ = std::make_shared<OffsetLocalizer>();
   const std::shared_ptr<CountingMapper> mapper_ = std::make_shared<CountingMapper>();
   const std::shared_ptr<ScriptedDetector> detector_ = std::make_shared<ScriptedDetector>();
+  std::atomic<bool> is_cancelled_ = false;
   std::unique_ptr<StagedModules> modules_;
   std::unique_ptr<Perception> perception_;
 };
@@ -343,6 +351,27 @@ TEST_F(RedrawTest, ARunThatEndsMeanwhileDrawsAllOfIt) {
   EXPECT_EQ(&perception().redraw(last), &last->grid());
   EXPECT_EQ(last->readings, 7 * kLargeScan);
   EXPECT_NEAR(perception().past().poses().back().T_map_robot.x_m, 2.5 + 0.02, 1e-12);
+}
+
+TEST_F(RedrawTest, BetweenACorrectionAndItsRedrawNoNodesAreThereToBeSaved) {
+  for (int i = 0; i < 6; ++i) tick(0.1 * i, kLargeScan);
+  EXPECT_EQ(perception().submaps().nodes.size(), 6U);
+  correcting_->correct(0.5);
+  EXPECT_FALSE(tick(1.0, kLargeScan));
+  EXPECT_TRUE(perception().submaps().empty()) << "the map is not where they are";
+  while (!tick(1.0, kLargeScan)) {
+  }
+  ASSERT_FALSE(perception().submaps().empty());
+  EXPECT_NEAR(perception().submaps().nodes.front().T_map_node.x_m, first_x_m(), 1e-12);
+}
+
+TEST_F(RedrawTest, ARunThatIsCancelledBeforeTheRedrawSavesNoNodes) {
+  for (int i = 0; i < 3; ++i) tick(0.1 * i);
+  correcting_->correct(0.5);
+  is_cancelled_ = true;
+  EXPECT_TRUE(perception().finish());
+  EXPECT_EQ(&perception().redraw(std::make_shared<CountingMapper>()), &mapper_->grid());
+  EXPECT_TRUE(perception().submaps().empty());
 }
 
 TEST_F(PerceptionTest, TagsThatMoveWithACorrectedPastAreReportedOnce) {
