@@ -11,6 +11,7 @@
 #include "maps/base/portable_random.hpp"
 #include "maps/base/text.hpp"
 #include "maps/landmarks/ring_template.hpp"
+#include "maps/submaps/kept_submaps.hpp"
 
 namespace cairn {
 namespace {

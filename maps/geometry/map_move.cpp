@@ -25,13 +25,13 @@ std::vector<Point> closer(std::span<const Point> path) {
 }
 
 // Two passes of one place may have moved differently: the path shall not jump from one to the other.
-std::vector<Point> smoothed(const std::vector<Point>& shifts_m) {
+std::vector<Point> smoothed(const std::vector<Point>& bends_m) {
   std::vector<Point> means_m;
-  means_m.reserve(shifts_m.size());
-  for (std::size_t i = 0; i < shifts_m.size(); ++i) {
-    const std::size_t reach = std::min({kSmoothed, i, shifts_m.size() - 1 - i});
+  means_m.reserve(bends_m.size());
+  for (std::size_t i = 0; i < bends_m.size(); ++i) {
+    const std::size_t reach = std::min({kSmoothed, i, bends_m.size() - 1 - i});
     Point sum{0.0, 0.0};
-    for (std::size_t k = i - reach; k <= i + reach; ++k) sum += shifts_m[k];
+    for (std::size_t k = i - reach; k <= i + reach; ++k) sum += bends_m[k];
     means_m.emplace_back(sum / static_cast<double>(2 * reach + 1));
   }
   return means_m;
@@ -43,8 +43,8 @@ Point middle_of(const std::vector<Point>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-// After the best rigid motion between them (least squares).
-double farthest_m(const std::vector<Point>& before, const std::vector<Point>& after) {
+// The rigid motion that brings the one nearest to the other (least squares).
+Pose2 best_fit(const std::vector<Point>& before, const std::vector<Point>& after) {
   const Point from = middle_of(before);
   const Point to = middle_of(after);
   double along = 0.0;
@@ -56,10 +56,17 @@ double farthest_m(const std::vector<Point>& before, const std::vector<Point>& af
     across += a.x() * b.y() - a.y() * b.x();
   }
   const Pose2 turn{0.0, 0.0, std::atan2(across, along)};
-  double farthest_m = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    farthest_m = std::max(farthest_m, (turn * Point(before[i] - from) - (after[i] - to)).norm());
-  return farthest_m;
+  const Point shift_m = to - turn * from;
+  return {shift_m.x(), shift_m.y(), turn.theta_rad};
+}
+
+// What of a motion is not rigid, point by point.
+std::vector<Point> bends_of(const std::vector<Point>& before, const std::vector<Point>& after) {
+  const Pose2 T = best_fit(before, after);
+  std::vector<Point> bends_m;
+  bends_m.reserve(before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) bends_m.emplace_back(after[i] - T * before[i]);
+  return bends_m;
 }
 
 }  // namespace
@@ -80,12 +87,13 @@ Pose2 MapMove::near(const Point& before_m) const {
 MovedPath moved_path(const MapMove& move, std::span<const Point> path) {
   if (path.empty()) return {};
   const std::vector<Point> before = closer(path);
-  std::vector<Point> shifts_m;
-  shifts_m.reserve(before.size());
-  for (const Point& p : before) shifts_m.emplace_back(move.near(p) * p - p);
-  MovedPath moved{smoothed(shifts_m), 0.0};
-  for (std::size_t i = 0; i < before.size(); ++i) moved.points[i] += before[i];
-  moved.bend_m = farthest_m(before, moved.points);
+  std::vector<Point> after;
+  after.reserve(before.size());
+  for (const Point& p : before) after.emplace_back(move.near(p) * p);
+  const Pose2 T = best_fit(before, after);
+  MovedPath moved{smoothed(bends_of(before, after)), 0.0};
+  for (std::size_t i = 0; i < before.size(); ++i) moved.points[i] += T * before[i];
+  for (const Point& bend_m : bends_of(before, moved.points)) moved.bend_m = std::max(moved.bend_m, bend_m.norm());
   return moved;
 }
 

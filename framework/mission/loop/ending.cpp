@@ -4,6 +4,7 @@
 
 #include "framework/mission/loop/mission_loop.hpp"
 #include "framework/mission/saved_content.hpp"
+#include "maps/submaps/kept_submaps.hpp"
 
 namespace cairn {
 namespace {
