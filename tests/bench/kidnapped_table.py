@@ -98,7 +98,6 @@ planner: {{plugin: hybrid}}
 """
 
 
-RANDOM_WORLD_START_M = (0.6, 0.6)  # of the run that mapped it
 TRIED_PLACES = 200
 RANDOM_WORLD = """mission: kidnapped
 seed: 1
@@ -169,9 +168,10 @@ def kidnap_in_random_world(out, world, i):
     folder.mkdir(parents=True, exist_ok=True)
     for _ in range(TRIED_PLACES):
         start, angle = (round(places.uniform(0, width), 2), round(places.uniform(0, height), 2)), places.randrange(360)
-        plan = subprocess.run([CAIRN, "plan", map_file, "--from", f"{start[0]},{start[1]}", "--to",
-                               "{},{}".format(*RANDOM_WORLD_START_M), "--radius-m", "0.25", "--json"], capture_output=True)
-        if plan.returncode != 0:
+        place = f"{start[0]},{start[1]}"
+        is_free = subprocess.run([CAIRN, "plan", map_file, "--from", place, "--to", place, "--radius-m", "0.25"],
+                                 capture_output=True).returncode == 0
+        if not is_free:
             continue  # in a wall, or not in the map
         mission = RANDOM_WORLD.format(root=ROOT, folder=world, x=start[0], y=start[1], angle=angle, at_most_m=AT_MOST_M)
         summary = run_lost(folder, mission, map_file, i)
