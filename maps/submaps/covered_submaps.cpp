@@ -18,8 +18,7 @@ Place place_at(std::int64_t x, std::int64_t y) {
 // Each once.
 void make_unique(std::vector<Place>& places) {
   std::ranges::sort(places);
-  const auto repeated = std::ranges::unique(places);
-  places.erase(repeated.begin(), repeated.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
 }
 
 // Where a submap has echoes; reach 1: and beside them.
