@@ -170,7 +170,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
   fields.group("landmarks", &C::landmarks, "how detections become landmarks and routes");
   fields.group("clusters", &C::clusters, "how landmarks are put together to clusters, such as the rooms of a building");
   fields.group("collision_monitor", &C::collision_monitor, "what keeps the robot from driving into what it sees");
-  fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s", "the mission ends then, whatever it is doing");
+  fields.number("at_most_s", &C::at_most_s, {0.0, 1e7}, "s",
+                "the mission ends then, whatever it is doing; the time of runs that this one continues counts");
   fields.number(
       "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
       "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");

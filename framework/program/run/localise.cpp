@@ -38,7 +38,9 @@ SavedMap load_map_to_work_with(const std::filesystem::path& file) {
   } catch (const StoreError& error) {
     std::optional<SavedMap> map = map_without_damaged_submaps(file);
     if (!map) throw;
-    std::cerr << error.what() << "; nothing else is damaged: the run does without the submaps\n";
+    std::cerr << error.what()
+              << "; nothing else is damaged: the run does without the submaps (`cairn map repair` "
+                 "keeps those that are whole)\n";
     return *std::move(map);
   }
 }
