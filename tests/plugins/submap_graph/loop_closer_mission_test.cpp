@@ -128,6 +128,7 @@ TEST_F(LoopCloserMission, ACheckKnowsItsNamesAndSettings) {
   EXPECT_THAT(errors_of({"localizer.plugin=odometry_compass", "loop_closer.min_scor=0.6"}),
               ElementsAre(HasSubstr("did you mean \"min_score\"?")))
       << "whether the localizer takes it or not";
+  EXPECT_THAT(errors_of({"loop_closer.min_window_m=8"}), ElementsAre(HasSubstr("must not be above max_window_m")));
   EXPECT_THAT(errors_of({"localizer.min_score=0.6"}), ElementsAre(HasSubstr("is now `loop_closer.min_score`")));
 }
 

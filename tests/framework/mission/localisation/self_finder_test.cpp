@@ -19,32 +19,35 @@ void begin_search(SelfFinder& finder, const OccupancyGrid& seen) {
   for (double x_m = 1.0; x_m <= 2.5; x_m += 0.05) finder.update({}, {x_m, 1.5, 0.0}, seen, x_m);
 }
 
-TEST(SelfFinder, ASearchThatNobodyNeedsAnyMoreOutlivesTheFinder) {
-  auto map = std::make_shared<const OccupancyGrid>(room());
-  const std::weak_ptr<const OccupancyGrid> searched = map;
-  std::optional<SelfFinder> finder(std::in_place, std::move(map), RobotModel{});
-  begin_search(*finder, room());
-  EndingSearches ending;
-  ending.add(finder->let_go());
-  EXPECT_EQ(finder->let_go(), nullptr) << "there is none any more";
-  finder.reset();
-  EXPECT_FALSE(searched.expired()) << "the search has its map";
-  ending.wait();
-  EXPECT_TRUE(searched.expired());
+// A finder whose search under way nobody needs any more.
+class LetGo : public testing::Test {
+ protected:
+  LetGo() {
+    auto map = std::make_shared<const OccupancyGrid>(room());
+    searched_ = map;
+    finder_.emplace(std::move(map), RobotModel{});
+    begin_search(*finder_, room());
+    ending_.add(finder_->let_go());
+  }
+  std::weak_ptr<const OccupancyGrid> searched_;
+  std::optional<SelfFinder> finder_;
+  EndingSearches ending_;
+};
+
+TEST_F(LetGo, ASearchThatNobodyNeedsAnyMoreOutlivesTheFinder) {
+  EXPECT_EQ(finder_->let_go(), nullptr) << "there is none any more";
+  finder_.reset();
+  EXPECT_FALSE(searched_.expired()) << "the search has its map";
+  ending_.wait();
+  EXPECT_TRUE(searched_.expired());
 }
 
-TEST(SelfFinder, ASearchThatHasEndedIsDroppedWithTheNextOne) {
-  auto map = std::make_shared<const OccupancyGrid>(room());
-  const std::weak_ptr<const OccupancyGrid> searched = map;
-  std::optional<SelfFinder> finder(std::in_place, std::move(map), RobotModel{});
-  begin_search(*finder, room());
-  EndingSearches ending;
-  ending.add(finder->let_go());
-  finder.reset();
-  EXPECT_FALSE(searched.expired());
+TEST_F(LetGo, ASearchThatHasEndedIsDroppedWithTheNextOne) {
+  finder_.reset();
+  EXPECT_FALSE(searched_.expired());
   const auto at_most = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!searched.expired() && std::chrono::steady_clock::now() < at_most) ending.add(nullptr);
-  EXPECT_TRUE(searched.expired());
+  while (!searched_.expired() && std::chrono::steady_clock::now() < at_most) ending_.add(nullptr);
+  EXPECT_TRUE(searched_.expired());
 }
 
 TEST(SelfFinder, AnswersAreThoseOfSearchesThatItHasNotLetGo) {
