@@ -204,6 +204,7 @@ TemplateSet render_templates(const Mission& mission, double cell_m, const Module
   SensedOptions options;
   options.sizes = config.sizes;
   options.smooth_too = config.smooth_too;
+  options.smooth_tolerance = config.smooth_tolerance;
   return render_sensed_set(mission.shapes, config.step_rad, cell_m, options, mission.robot, simulator,
                            mission.config.map, modules, TemplateCache(template_cache_folder()));
 }
@@ -264,6 +265,8 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   built.localizer = build_localizer(mission, library,
                                     start_known.value_or(LocalizerStart{built.T_map_start, {}, usable_submaps(resume)}),
                                     built.loop_closer_calls);
+  // One that the localizer does not take is made for its errors alone.
+  if (is_chosen(config.loop_closer)) (void)build_loop_closer(mission, library, built.loop_closer_calls);
   built.mapper = build_mapper(mission, library);
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
   if (!config.detector.name.empty() && !is_left_alone)

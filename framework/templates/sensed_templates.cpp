@@ -79,7 +79,8 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
   if (cells.empty())
     throw std::runtime_error("sensed templates: an orbit round the " + shape.category +
                              " left no edge in the map that is steep enough to be recognised");
-  return {shape.category, orientation_rad, std::move(cells)};
+  const bool has_smooth_faces = surface == Surface::smooth && !shape.contour.is_circle();
+  return {shape.category, orientation_rad, std::move(cells), has_smooth_faces ? options.smooth_tolerance : 1.0};
 }
 
 struct RenderTask {
@@ -99,12 +100,13 @@ std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector
 }
 
 std::vector<RenderTask> render_tasks_for(const LandmarkShape& shape, double step_rad, double cell_m,
-                                         const SensedOptions& options) {
+                                         const SensedOptions& options, const RobotModel& robot) {
+  const bool smooth_too = options.smooth_too && robot.lasers.empty();
   std::vector<RenderTask> tasks;
   for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m))
     for (const double size : options.sizes) {
       tasks.push_back({&shape, orientation_rad, size, Surface::rough});
-      if (options.smooth_too) tasks.push_back({&shape, orientation_rad, size, Surface::smooth});
+      if (smooth_too) tasks.push_back({&shape, orientation_rad, size, Surface::smooth});
     }
   return tasks;
 }
@@ -130,7 +132,7 @@ TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double s
   for (const LandmarkShape& shape : shapes) {
     kept.push_back(cache.find(shape_key(common_key, shape)));
     if (kept.back()) continue;
-    const std::vector<RenderTask> more = render_tasks_for(shape, step_rad, cell_m, options);
+    const std::vector<RenderTask> more = render_tasks_for(shape, step_rad, cell_m, options, robot);
     tasks.insert(tasks.end(), more.begin(), more.end());
   }
   std::vector<LandmarkTemplate> rendered = render_all(studio, tasks);

@@ -12,8 +12,9 @@
 namespace cairn {
 
 struct SensedOptions {
-  std::vector<double> sizes{1.0};        // as shares of a shape's own; a template each
-  bool smooth_too = false;               // a second template each, of the landmark with a smooth surface
+  std::vector<double> sizes{1.0};  // as shares of a shape's own; a template each
+  bool smooth_too = true;          // a second template each, of the landmark with a smooth surface
+  double smooth_tolerance = 1.2;   // of these, but for circles, which answer to all sides (LandmarkTemplate::tolerance)
   std::vector<double> gaps_m{0.2, 0.6};  // from the contour's outer circle to the robot's; an orbit each way at each
   double speed_mps = 0.3;
   double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour
@@ -30,9 +31,10 @@ struct SensedOptions {
 // of one of them misses the orientation of a landmark seen both ways by half of that. It drives near and
 // farther off: the farther orbit rounds what the near one sharpens, as a drive through a room does both, and a
 // round landmark is distinguished from an angular one by little else. The landmark stands with its centre on the centre
-// of a cell, the surface is rough (and smooth, another time, where that is asked for), odometry and compass are free of
-// error. The same arguments give the same templates, with the cache or without. Throws what the modules throw, and
-// std::runtime_error when the sensor cannot be driven or ends before the orbit does.
+// of a cell, the surface is rough (and smooth, another time, where that is asked for and the robot has no laser, which
+// nothing mirrors), odometry and compass are free of error. The same arguments give the same templates, with the cache
+// or without. Throws what the modules throw, and std::runtime_error when the sensor cannot be driven or ends before the
+// orbit does.
 [[nodiscard]] TemplateSet render_sensed_set(const std::vector<LandmarkShape>& shapes, double step_rad, double cell_m,
                                             const SensedOptions& options, const RobotModel& robot,
                                             const PluginChoice& sensor, const PluginChoice& map,

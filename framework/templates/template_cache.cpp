@@ -17,7 +17,7 @@
 namespace cairn {
 namespace {
 
-constexpr std::string_view kMagic = "cairn templates 1\n";
+constexpr std::string_view kMagic = "cairn templates 2\n";
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -60,6 +60,7 @@ std::string encoded(const std::string& key, const std::vector<LandmarkTemplate>&
   put(out, std::uint64_t{templates.size()});
   for (const LandmarkTemplate& t : templates) {
     put(out, t.orientation_rad);
+    put(out, t.tolerance);
     put(out, std::uint64_t{t.category.size()});
     out += t.category;
     put(out, std::uint64_t{t.cells.size()});
@@ -76,7 +77,9 @@ std::string encoded(const std::string& key, const std::vector<LandmarkTemplate>&
 bool take_template(Reader& in, const std::string& category, LandmarkTemplate& t) {
   std::uint64_t cells = 0;
   std::uint64_t length = 0;
-  if (!in.take(t.orientation_rad) || !in.take(length) || !in.take_text(category) || !in.take(cells)) return false;
+  if (!in.take(t.orientation_rad) || !in.take(t.tolerance) || !in.take(length) || !in.take_text(category) ||
+      !in.take(cells))
+    return false;
   if (length != category.size() || cells > in.left()) return false;
   t.category = category;
   t.cells.resize(cells);
@@ -195,8 +198,9 @@ std::filesystem::path template_cache_folder() {
 std::string rendering_key(double step_rad, double cell_m, const SensedOptions& options, const RobotModel& robot,
                           const PluginChoice& sensor, const PluginChoice& map, const ModuleLibrary& library) {
   KeyText key;
-  const auto& [sizes, smooth_too, gaps_m, speed_mps, inside, outside, min_gradient, seed] = options;
-  key.add(step_rad, cell_m, speed_mps, inside, outside, min_gradient, seed, smooth_too, gaps_m.size(), sizes.size());
+  const auto& [sizes, smooth_too, smooth_tolerance, gaps_m, speed_mps, inside, outside, min_gradient, seed] = options;
+  key.add(step_rad, cell_m, speed_mps, inside, outside, min_gradient, seed, smooth_too, smooth_tolerance, gaps_m.size(),
+          sizes.size());
   for (const double size : sizes) key.add(size);
   for (const double gap_m : gaps_m) key.add(gap_m);
   add_robot(key, robot);

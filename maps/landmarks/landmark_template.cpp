@@ -103,6 +103,10 @@ std::size_t period_of(const std::vector<Rendering>& turn) {
 
 }  // namespace
 
+std::size_t LandmarkTemplate::scored_cells() const {
+  return static_cast<std::size_t>(std::lround(tolerance * static_cast<double>(cells.size())));
+}
+
 double TemplateSet::smallest_diameter_m() const {
   double smallest = std::numeric_limits<double>::infinity();
   for (const LandmarkShape& shape : shapes) smallest = std::min(smallest, shape.contour.outer_diameter_m());

@@ -57,6 +57,16 @@ std::string fault_of(const KeptEdge& edge, const KeptSubmaps& submaps) {
 
 }  // namespace
 
+SubmapCounts counts_of(const KeptSubmaps& submaps) {
+  SubmapCounts counts{submaps.nodes.size(), submaps.submaps.size(), submaps.edges.size()};
+  for (const KeptEdge& edge : submaps.edges) {
+    if (!edge.is_closure) continue;
+    ++counts.closures;
+    counts.closures_believed += edge.is_believed ? 1 : 0;
+  }
+  return counts;
+}
+
 void set_echoes(KeptSubmap& submap, std::span<const Point> points_m) {
   constexpr int kHalf = KeptSubmap::kMaxSide / 2;
   std::vector<std::pair<int, int>> cells;  // y, x

@@ -57,6 +57,17 @@ struct KeptSubmaps {
   bool operator==(const KeptSubmaps&) const = default;
 };
 
+// How large they are, and how many loops they close.
+struct SubmapCounts {
+  std::size_t nodes = 0;
+  std::size_t submaps = 0;
+  std::size_t edges = 0;
+  std::size_t closures = 0;  // of the edges
+  std::size_t closures_believed = 0;
+  bool operator==(const SubmapCounts&) const = default;
+};
+[[nodiscard]] SubmapCounts counts_of(const KeptSubmaps& submaps);
+
 // The points as echoes of a submap's grid. Those beyond the largest grid around the anchor are left out.
 void set_echoes(KeptSubmap& submap, std::span<const Point> points_m);
 // The centres of the grid's cells that have echoes, in the anchor's frame; one of several echoes as many times, at most

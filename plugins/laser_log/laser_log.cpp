@@ -1,5 +1,7 @@
 #include "plugins/laser_log/laser_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,6 +101,13 @@ std::vector<RangeReading> derived_ring(const std::vector<RangeReading>& beams, c
   return readings;
 }
 
+// For the report, where nobody should take them for the log's own.
+std::string with_worn_wheels(std::string reason, const WornWheels& wheels) {
+  if (wheels.length_ratio == 0.0 && wheels.rad_per_m == 0.0) return reason;
+  return fmt::format("{}{}odometry worsened: {:.3g} % longer, {:.3g} deg for the root of each metre, seed {}", reason,
+                     reason.empty() ? "" : "; ", 100.0 * wheels.length_ratio, degrees(wheels.rad_per_m), wheels.seed);
+}
+
 }  // namespace
 
 void Config::describe(Fields<Config>& fields) {
@@ -145,6 +154,7 @@ double longest_echo_m(Sensor& log, double longest_m, const Budget& budget) {
 
 SensorStep LaserLog::next(const Budget& budget) {
   SensorStep step = source_->next(budget);
+  if (step.state == SensorState::end_of_data) step.reason = with_worn_wheels(std::move(step.reason), config_.worsen);
   step.observation.T_odom_robot = odometry_.next(step.observation.T_odom_robot);
   // Nearer than a laser measures is a fault of the reading, often written as 0.
   for (RangeReading& reading : step.observation.ranges)

@@ -1,12 +1,13 @@
 #include "plugins/template_matcher/classify.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cairn::template_matcher {
 bool fits_better(const TemplateMatch& a, const LandmarkTemplate& shape_a, const TemplateMatch& b,
                  const LandmarkTemplate& shape_b) {
-  return static_cast<std::int64_t>(a.mismatch) * static_cast<std::int64_t>(shape_b.cells.size()) <
-         static_cast<std::int64_t>(b.mismatch) * static_cast<std::int64_t>(shape_a.cells.size());
+  return static_cast<std::int64_t>(a.mismatch) * static_cast<std::int64_t>(shape_b.scored_cells()) <
+         static_cast<std::int64_t>(b.mismatch) * static_cast<std::int64_t>(shape_a.scored_cells());
 }
 
 double degree_of(std::int32_t mismatch, std::size_t cells, double mu) {
@@ -27,6 +28,21 @@ double above_unseen(std::int32_t mismatch, const LandmarkTemplate& shape) {
   return unseen == 0 ? 0.0 : 1.0 - static_cast<double>(mismatch) / unseen;
 }
 
+bool fits_without_tolerance(std::span<const TemplateMatch> matches, std::span<const LandmarkTemplate> templates,
+                            const ScoreRule& rule) {
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (degree_of(matches[i].mismatch, templates[i].cells.size(), rule.mu) > rule.tau_match) return true;
+  return false;
+}
+
+void take_tolerance(std::span<TemplateMatch> matches, std::span<const LandmarkTemplate> templates) {
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i].mismatch == kUnmatched || templates[i].tolerance == 1.0) continue;
+    matches[i].mismatch =
+        static_cast<std::int32_t>(std::min(std::round(templates[i].tolerance * matches[i].mismatch), kUnmatched - 1.0));
+  }
+}
+
 std::size_t best_template(std::span<const TemplateMatch> matches, std::span<const LandmarkTemplate> templates) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < matches.size(); ++i) {
@@ -37,12 +53,12 @@ std::size_t best_template(std::span<const TemplateMatch> matches, std::span<cons
 
 bool is_decided(std::size_t best, std::span<const TemplateMatch> matches, std::span<const LandmarkTemplate> templates,
                 const ScoreRule& rule) {
-  const double degree = degree_of(matches[best].mismatch, templates[best].cells.size(), rule.mu);
+  const double degree = degree_of(matches[best].mismatch, templates[best].scored_cells(), rule.mu);
   if (degree <= rule.tau_match) return false;
   if (above_unseen(matches[best].mismatch, templates[best]) < rule.min_above_unseen) return false;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (templates[i].category == templates[best].category) continue;
-    const double other = degree_of(matches[i].mismatch, templates[i].cells.size(), rule.mu);
+    const double other = degree_of(matches[i].mismatch, templates[i].scored_cells(), rule.mu);
     if (!fits_better(matches[best], templates[best], matches[i], templates[i])) return false;
     if (degree - other < rule.min_margin) return false;
   }
@@ -60,7 +76,7 @@ std::vector<CategoryDegree> degrees_by_category(std::span<const TemplateMatch> m
     }
     if (!best) continue;
     const LandmarkTemplate& t = set.templates[*best];
-    const double degree = degree_of(matches[*best].mismatch, t.cells.size(), rule.mu);
+    const double degree = degree_of(matches[*best].mismatch, t.scored_cells(), rule.mu);
     degrees.push_back({shape.category, degree, wrap_angle(t.orientation_rad), grid.centre_of(matches[*best].at),
                        degree > rule.tau_match});
   }
@@ -71,7 +87,7 @@ std::vector<TemplateDegree> templates_above(std::span<const TemplateMatch> match
                                             std::span<const LandmarkTemplate> templates, const ScoreRule& rule) {
   std::vector<TemplateDegree> above;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    const double degree = degree_of(matches[i].mismatch, templates[i].cells.size(), rule.mu);
+    const double degree = degree_of(matches[i].mismatch, templates[i].scored_cells(), rule.mu);
     if (degree > rule.tau_match) {
       above.push_back({templates[i].category, wrap_angle(templates[i].orientation_rad), degree});
     }

@@ -32,6 +32,13 @@ struct ScoreRule {
 [[nodiscard]] bool fits_better(const TemplateMatch& a, const LandmarkTemplate& shape_a, const TemplateMatch& b,
                                const LandmarkTemplate& shape_b);
 
+// Whether a template fits that needs no tolerance for it.
+[[nodiscard]] bool fits_without_tolerance(std::span<const TemplateMatch> matches,
+                                          std::span<const LandmarkTemplate> templates, const ScoreRule& rule);
+// Raises the mismatches of tolerant templates so that their degrees are those without tolerance: where something fits
+// without, it must not be beaten by what does not.
+void take_tolerance(std::span<TemplateMatch> matches, std::span<const LandmarkTemplate> templates);
+
 // Index of the template that fits best; ties go to the first.
 [[nodiscard]] std::size_t best_template(std::span<const TemplateMatch> matches,
                                         std::span<const LandmarkTemplate> templates);

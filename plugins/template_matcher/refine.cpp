@@ -16,7 +16,7 @@ bool is_whole(double ratio) {
 
 double mean_mismatch(std::size_t index, std::span<const TemplateMatch> matches,
                      std::span<const LandmarkTemplate> templates) {
-  return static_cast<double>(matches[index].mismatch) / static_cast<double>(templates[index].cells.size());
+  return static_cast<double>(matches[index].mismatch) / static_cast<double>(templates[index].scored_cells());
 }
 
 }  // namespace

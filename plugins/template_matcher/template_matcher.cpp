@@ -36,15 +36,15 @@ double least_degree(const ScoreRule& rule) {
 std::vector<std::int32_t> ceilings_of(double degree, double mu, std::span<const LandmarkTemplate> templates) {
   std::vector<std::int32_t> ceilings;
   ceilings.reserve(templates.size());
-  for (const LandmarkTemplate& t : templates) ceilings.push_back(mismatch_ceiling(degree, t.cells.size(), mu));
+  for (const LandmarkTemplate& t : templates) ceilings.push_back(mismatch_ceiling(degree, t.scored_cells(), mu));
   return ceilings;
 }
 
-// Above this mismatch a template fits worse than the other one does.
+// Above this mismatch a template fits worse than the other one does, with their tolerances and without.
 std::int32_t ceiling_beside(const TemplateMatch& other, const LandmarkTemplate& other_shape,
                             const LandmarkTemplate& shape) {
   if (other.mismatch == kUnmatched) return kUnmatched;
-  const auto scaled = std::int64_t{other.mismatch} * static_cast<std::int64_t>(shape.cells.size()) /
+  const auto scaled = std::int64_t{other.mismatch} * static_cast<std::int64_t>(shape.scored_cells()) /
                       static_cast<std::int64_t>(other_shape.cells.size());
   return static_cast<std::int32_t>(std::min<std::int64_t>(scaled + 1, kUnmatched));
 }
@@ -89,6 +89,7 @@ Matching TemplateMatcher::match(const OccupancyGrid& grid, Cell trigger) {
   std::vector<TemplateMatch> on_cells = search(spans);
   std::vector<TemplateMatch> matches = weighed(on_cells, grid);
   if (config_.between_cells) matches = refined(std::move(matches), grid);
+  if (fits_without_tolerance(matches, templates_->templates, rule_)) take_tolerance(matches, templates_->templates);
   Matching matching;
   matching.trigger = trigger;
   matching.fits_above = rule_.tau_match;
@@ -177,7 +178,7 @@ std::optional<Detection> TemplateMatcher::detection_of(const std::vector<Templat
   const std::size_t best = best_template(matches, templates);
   if (!is_decided(best, matches, templates, rule_)) return std::nullopt;
   const LandmarkTemplate& t = templates[best];
-  const double degree = degree_of(matches[best].mismatch, t.cells.size(), rule_.mu);
+  const double degree = degree_of(matches[best].mismatch, t.scored_cells(), rule_.mu);
   std::vector<TemplateDegree> above = templates_above(matches, templates, rule_);
   const Point cell_m = grid.centre_of(matches[best].at);
   if (!config_.between_cells)

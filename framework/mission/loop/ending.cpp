@@ -72,6 +72,14 @@ MissionLoop::Ending MissionLoop::at_end_of_data(const std::string& reason) const
   return {MissionOutcome::step_failed, "the sensor's data ended before the steps did"};
 }
 
+// It may take a minute, in which no tick comes.
+void MissionLoop::publish_work_at_end() {
+  if (options_.control == nullptr || !perception_.has_history()) return;
+  RunStatus status = status_in(RunState::running);
+  status.doing = "all submaps are searched once more, and the map is drawn for the last time";
+  options_.control->publish(status);
+}
+
 // Whatever happened: the robot stops, and the map so far is saved.
 void MissionLoop::finish() {
   try {
@@ -83,6 +91,7 @@ void MissionLoop::finish() {
   if (ending_.outcome != MissionOutcome::done && hearing_.is_deaf()) add_sentence(ending_.reason, hearing_.summary());
   for (const std::string& fault : steps_.halt(clock_.time_s(), ending_.reason)) add_sentence(ending_.reason, fault);
   try {
+    publish_work_at_end();
     if (world_.grid != nullptr && perception_.finish()) {
       redraw_map();
       world_.pose.T_map_robot = perception_.past().poses().back().T_map_robot;
@@ -172,6 +181,8 @@ MissionResult MissionLoop::result() const {
   result.start_check = start_check_;
   if (watch_) result.watch = watch_->figures();
   if (is_check_open() && check_->cause) result.watch.add({check_->begun_s, *check_->cause, check_->check});
+  result.pose_graph = saving_.pose_graph();
+  result.map_moves = world_.map_moves;
   result.map_file = saving_.map_file();
   result.clusters = planning_.last_clusters();
   result.poses = perception_.past().poses();

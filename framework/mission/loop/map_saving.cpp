@@ -108,6 +108,8 @@ Status MapSaving::write(const std::string& file_name) {
       map.submaps = {};
     }
     save_map(options_.folder / file_name, map, Links::replace);
+    pose_graph_.reset();
+    if (!map.submaps.empty()) pose_graph_ = counts_of(map.submaps);
   } catch (const std::exception& error) {
     return {StepState::failure, std::string("the map could not be saved: ") + error.what()};
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "framework/contracts/behaviour.hpp"
@@ -39,6 +40,8 @@ class MapSaving {
   std::string save_last(bool is_done);
 
   [[nodiscard]] const std::string& map_file() const { return map_file_; }  // last saved; empty: none
+  // In the map as it was last saved; none: it has none.
+  [[nodiscard]] const std::optional<SubmapCounts>& pose_graph() const { return pose_graph_; }
   [[nodiscard]] double explored_ratio() const { return explored_ratio_; }  // of the map as it was last saved
   [[nodiscard]] AutosaveFigures figures() const { return autosaver_.figures(); }
 
@@ -58,6 +61,7 @@ class MapSaving {
   Autosaver autosaver_;
   bool autosave_has_failed_ = false;
   std::string map_file_;
+  std::optional<SubmapCounts> pose_graph_;
   std::string not_saved_;  // the first reason
   double explored_ratio_ = 0.0;
 };

@@ -103,6 +103,7 @@ class MissionLoop {
   void finish();
   void save_last();
   void redraw_map();
+  void publish_work_at_end();
   void move_map();
   void begin_localisation(const LocaliseIn& localise);
   void begin_watch();

@@ -106,6 +106,8 @@ ordered_json json_of(const SavedMap& map, int schema) {
           {"submaps", map.submaps.submaps.size()},
           {"submap_nodes", map.submaps.nodes.size()},
           {"submap_edges", map.submaps.edges.size()},
+          {"submap_closures", counts_of(map.submaps).closures},
+          {"submap_closures_believed", counts_of(map.submaps).closures_believed},
           {"close_categories", close_json(map.graph)},
           {"levels", levels_json(map)},
           {"clusters", clusters_json(map)},

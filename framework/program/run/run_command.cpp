@@ -72,6 +72,10 @@ void print_summary(std::ostream& out, const Mission& mission, const MissionResul
   if (const auto error = report.pose_errors().figures())
     out << fmt::format("  pose error  median {:.3f} m, 95 % {:.3f} m, worst {:.3f} m; {} corrections, {} refused\n",
                        error->median_m, error->p95_m, error->worst_m, error->corrections, error->refused);
+  if (const auto& graph = result.pose_graph)
+    out << fmt::format("  pose graph  {}, {}, {} of {} believed; map moved {}\n", counted(graph->submaps, "submap"),
+                       counted(graph->nodes, "node"), graph->closures_believed, counted(graph->closures, "closure"),
+                       counted(result.map_moves, "time"));
   if (const MarkerFigures& markers = report.markers(); markers.sightings() > 0)
     out << fmt::format("  tags        {}, {}; corners {:.2f} pixels off\n", counted(markers.markers(), "tag"),
                        counted(markers.sightings(), "sighting"), markers.reprojection_error_px());

@@ -78,6 +78,19 @@ TEST(RunReport, ListsTheContactsThatTheSimulationJudged) {
             "\"could_be_seen\": true\n    }\n  ]");
 }
 
+TEST(RunReport, SaysHowManyLoopsClosedAndHowOftenTheMapMoved) {
+  const LandmarkGraph graph;
+  MissionResult result;
+  const std::string without = RunReport().report_json({}, result, graph, {});
+  EXPECT_THAT(without, testing::Not(testing::HasSubstr("pose_graph")));
+  EXPECT_THAT(without, testing::Not(testing::HasSubstr("map_moves")));
+  result.pose_graph = SubmapCounts{30, 4, 50, 7, 6};
+  result.map_moves = 2;
+  const std::string with = RunReport().report_json({}, result, graph, {});
+  EXPECT_THAT(with, testing::HasSubstr("\"closures\": 7,\n    \"closures_believed\": 6\n"));
+  EXPECT_THAT(with, testing::HasSubstr("\"map_moves\": 2"));
+}
+
 TEST(RunReport, ListsWhenTheRobotWasHeldAndByWhom) {
   const OccupancyGrid grid(0.05);
   const LandmarkGraph graph;

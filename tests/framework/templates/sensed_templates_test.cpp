@@ -87,15 +87,35 @@ void expect_same(const TemplateSet& a, const TemplateSet& b) {
     EXPECT_EQ(a.templates[i].category, b.templates[i].category);
     EXPECT_EQ(a.templates[i].orientation_rad, b.templates[i].orientation_rad);
     EXPECT_EQ(a.templates[i].cells, b.templates[i].cells);
+    EXPECT_EQ(a.templates[i].tolerance, b.templates[i].tolerance);
   }
 }
 
 TEST_F(Cache, GivesWhatRenderingGives) {
   const std::vector<LandmarkShape> shapes = load_landmark_shapes(kConfig / "templates");
   const TemplateSet fresh = render(shapes);
-  EXPECT_EQ(fresh.templates.size(), 15U);
+  EXPECT_EQ(fresh.templates.size(), 2U * (1U + 6U + 8U));
   EXPECT_EQ(files(), 3U);
   expect_same(render(shapes), fresh);
+}
+
+// A circle answers to all sides, a face to one.
+TEST_F(Cache, SmoothFacesAreTolerant) {
+  const TemplateSet set = render(load_landmark_shapes(kConfig / "templates"));
+  for (std::size_t i = 0; i < set.templates.size(); ++i) {
+    const LandmarkTemplate& t = set.templates[i];
+    const bool is_second = i > 0 && set.templates[i - 1].category == t.category &&
+                           set.templates[i - 1].orientation_rad == t.orientation_rad;
+    EXPECT_EQ(t.tolerance, is_second && t.category != "circle" ? 1.2 : 1.0) << t.category << ' ' << i;
+    if (is_second) EXPECT_NE(t.cells, set.templates[i - 1].cells);
+  }
+}
+
+TEST_F(Cache, ALasersTemplatesAreOfRoughSurfacesOnly) {
+  const RobotModel laser = load_robot(kConfig / "robots" / "turtlebot3.yaml");
+  const TemplateSet set = render_sensed_set(load_landmark_shapes(kConfig / "templates"), radians(15.0), 0.05, {}, laser,
+                                            plain("simulated_robot"), plain("bayes"), modules(), TemplateCache());
+  EXPECT_EQ(set.templates.size(), 15U);
 }
 
 TEST_F(Cache, IsNotTakenInForAnotherShapeMapperOrCategory) {

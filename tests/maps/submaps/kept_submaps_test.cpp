@@ -79,6 +79,14 @@ TEST(DropCovered, NodesThatTwoSubmapsShareStayWithTheOneThatStays) {
   EXPECT_EQ(submaps.nodes[5].number, 5);
 }
 
+TEST(KeptSubmapsCounts, ClosuresAreCountedByWhetherTheyAreBelieved) {
+  KeptSubmaps submaps = passes(3);
+  EXPECT_EQ(counts_of(submaps), (SubmapCounts{9, 3, 8, 2, 2}));
+  submaps.edges.back().is_believed = false;
+  EXPECT_EQ(counts_of(submaps).closures_believed, 1U);
+  EXPECT_EQ(counts_of({}), SubmapCounts{});
+}
+
 TEST(KeptSubmapsNodes, FollowTheAnchorAsFarAsASubmapIsLong) {
   KeptSubmaps submaps;
   for (std::int64_t i = 0; i < 8; ++i)

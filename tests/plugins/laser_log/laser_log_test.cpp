@@ -175,6 +175,22 @@ TEST(LaserLog, AScanBecomesTheReadingsOfARingOfSonarsWhereThatIsAskedFor) {
   EXPECT_TRUE(std::isinf(step.observation.ranges[7].range_m)) << "beyond the sonar's reach";
 }
 
+TEST(LaserLog, WornWheelsAreToldAtTheEnd) {
+  const log_files::LogFolder folder;
+  const std::string file = folder.write("a.log", kFlaser);
+  const auto end_of = [&](const Config& config) {
+    LaserLog log(played(reader_of(file, {})), 30.0, config);
+    SensorStep step = log.next({});
+    while (step.state == SensorState::observation) step = log.next({});
+    return step.reason;
+  };
+  Config worn;
+  worn.worsen = {0.03, radians(2.0), 4};
+  EXPECT_EQ(end_of({}).find("odometry worsened"), std::string::npos);
+  EXPECT_NE(end_of(worn).find("odometry worsened: 3 % longer, 2 deg for the root of each metre, seed 4"),
+            std::string::npos);
+}
+
 TEST(LaserLog, AFileThatIsNotThereIsRefused) {
   EXPECT_THROW((void)reader_of("/nowhere/a.log", {}), ConfigError);
 }

@@ -68,6 +68,36 @@ TEST(Classify, NeedsMoreThanTauMatch) {
   EXPECT_TRUE(is_decided(2, matches, kTemplates, {kMu, 0.59, 0.0, 0.0}));
 }
 
+TEST(Classify, ATolerantTemplateFitsWithSoManyTimesTheMismatch) {
+  std::vector<LandmarkTemplate> templates = kTemplates;
+  const ScoreRule rule{kMu, 0.6, 0.0, 0.0};
+  const auto matches = matches_of(0.3, 0.55, 0.3, 0.3);
+  EXPECT_FALSE(is_decided(1, matches, templates, rule));
+  templates[1].tolerance = 1.2;
+  EXPECT_EQ(best_template(matches, templates), 1U);
+  EXPECT_TRUE(is_decided(1, matches, templates, rule));
+  EXPECT_NEAR(templates_above(matches, templates, rule).front().degree, 1.0 - 0.45 / 1.2, 1e-3);
+  EXPECT_FALSE(fits_better(matches[1], kTemplates[1], match_of(0.6, 40), kTemplates[3]));
+  EXPECT_TRUE(fits_better(matches[1], templates[1], match_of(0.6, 40), kTemplates[3]));
+}
+
+TEST(Classify, ToleranceDoesNotBeatWhatFitsWithout) {
+  std::vector<LandmarkTemplate> templates = kTemplates;
+  templates[1].tolerance = 1.2;
+  const ScoreRule rule{kMu, 0.6, 0.0, 0.0};
+  auto matches = matches_of(0.64, 0.59, 0.3, 0.3);
+  ASSERT_EQ(best_template(matches, templates), 1U) << "0.66 with its tolerance";
+  ASSERT_TRUE(fits_without_tolerance(matches, templates, rule));
+  take_tolerance(matches, templates);
+  EXPECT_EQ(best_template(matches, templates), 0U);
+  EXPECT_NEAR(
+      degrees_by_category(matches, {.shapes = {{"square", {}}}, .templates = templates}, OccupancyGrid(0.05), rule)
+          .front()
+          .degree,
+      0.59, 1e-3);
+  EXPECT_FALSE(fits_without_tolerance(matches_of(0.6, 0.59, 0.3, 0.3), templates, rule));
+}
+
 TEST(Classify, StaysUndecidedWhenAnotherCategoryTies) {
   // Means of sums over different numbers of cells, equal without rounding.
   const auto matches = matches_of(0.8, 0.7, 0.5, 0.8);

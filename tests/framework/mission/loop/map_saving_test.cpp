@@ -36,9 +36,11 @@ TEST_F(MapSavingTest, SubmapsThatCannotBeTrueDoNotCostTheMap) {
   submaps_.nodes = {{0, 0.0, {1.0, 2.0, 0.0}}};
   EXPECT_EQ(saving().save("a.cairn").reason, "saved a.cairn");
   EXPECT_EQ(load_map(folder_ / "a.cairn").submaps, submaps_);
+  EXPECT_EQ(saving().pose_graph(), counts_of(submaps_));
   submaps_.edges = {{0, 7, {}}};
   EXPECT_EQ(saving().save("a.cairn").reason, "saved a.cairn");
   EXPECT_TRUE(load_map(folder_ / "a.cairn").submaps.empty());
+  EXPECT_FALSE(saving().pose_graph());
   EXPECT_THAT(events_.names, Contains(HasSubstr("without its submaps: the edge from 0 to 7 lacks an end")));
 }
 
