@@ -18,7 +18,7 @@ struct TemplateSettings {
   Rendering rendering = Rendering::sensed;
   double step_rad = radians(15.0);
   std::vector<double> sizes{1.0};
-  bool smooth_too = true;
+  bool smooth_too = false;
   double smooth_tolerance = 1.2;
   double ring_offset_m = 0.04;  // where sonar maps show the outline (docs/results/paper.md)
   static void describe(Fields<TemplateSettings>& fields);
@@ -41,12 +41,13 @@ void describe_templates(Fields<Config>& fields) {
                  "size varies");
   fields.flag(
       "smooth_too", smooth_too,
-      "for sonars: sensed templates are rendered a second time with a smooth surface, which echoes only where a beam "
-      "meets it at a right angle");
-  fields.number("smooth_tolerance", &Config::smooth_tolerance, {1.0, 2.0}, "",
-                "of these, but for circles, so many times the mismatch is allowed: of smooth faces a drive through a "
-                "room shows less than "
-                "the orbits that they are rendered from");
+      "for sonars: sensed templates with straight faces are rendered a second time with a smooth surface, which echoes "
+      "only where a beam meets it at a right angle; up to twice the time to match");
+  fields.number(
+      "smooth_tolerance", &Config::smooth_tolerance, {1.0, 2.0}, "",
+      "of these, so many times the mismatch is allowed where nothing fits otherwise: of smooth faces a drive through a "
+      "room shows less than "
+      "the orbits that they are rendered from");
   fields.number("ring_offset_m", &Config::ring_offset_m, {-0.2, 0.2}, "m",
                 "of drawn templates (`rendering: ideal`): how far outside the outline the ring is drawn, as maps of "
                 "sonars show it; 0: on the outline, as in the paper");

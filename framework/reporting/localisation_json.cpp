@@ -63,6 +63,16 @@ std::string carried_json(const WatchFigures& figures) {
   return rows.dump();
 }
 
+std::string pose_graph_json(const SubmapCounts& counts) {
+  const auto& [nodes, submaps, edges, closures, closures_believed] = counts;
+  return nlohmann::ordered_json{{"submaps", submaps},
+                                {"nodes", nodes},
+                                {"edges", edges},
+                                {"closures", closures},
+                                {"closures_believed", closures_believed}}
+      .dump();
+}
+
 std::string localisation_json(const LocalisationFigures& figures) {
   const bool is_known = figures.is_pose_given || figures.found_s;
   nlohmann::ordered_json json = {{"trust", std::string(name_of(is_known ? PoseTrust::tracking : PoseTrust::lost))},

@@ -5,6 +5,7 @@
 
 #include "framework/mission/localisation/self_finder.hpp"
 #include "framework/mission/localisation/watch_figures.hpp"
+#include "maps/submaps/kept_submaps.hpp"
 
 namespace cairn {
 
@@ -13,6 +14,8 @@ namespace cairn {
 // The doubts of a mission under way, and the times that its robot was carried.
 [[nodiscard]] std::string doubts_json(const WatchFigures& figures);
 [[nodiscard]] std::string carried_json(const WatchFigures& figures);
+// How many loops closed, of a localizer that keeps a pose graph.
+[[nodiscard]] std::string pose_graph_json(const SubmapCounts& counts);
 [[nodiscard]] std::string localisation_json(const LocalisationFigures& figures);
 
 }  // namespace cairn

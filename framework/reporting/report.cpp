@@ -226,16 +226,8 @@ void add_watch(ordered_json& json, const WatchFigures& watch) {
   if (!watch.carried.empty()) json["carried"] = ordered_json::parse(carried_json(watch));
 }
 
-// Of a localizer that keeps a pose graph. The map may be drawn anew without one.
-void add_pose_graph(ordered_json& json, const MissionResult& result) {
-  if (result.pose_graph) {
-    const auto& [nodes, submaps, edges, closures, closures_believed] = *result.pose_graph;
-    json["pose_graph"] = {{"submaps", submaps},
-                          {"nodes", nodes},
-                          {"edges", edges},
-                          {"closures", closures},
-                          {"closures_believed", closures_believed}};
-  }
+void add_map_moves(ordered_json& json, const MissionResult& result) {
+  if (result.pose_graph) json["pose_graph"] = ordered_json::parse(pose_graph_json(*result.pose_graph));
   if (result.map_moves > 0) json["map_moves"] = result.map_moves;
 }
 
@@ -291,7 +283,7 @@ std::string RunReport::report_json(const Mission& mission, const MissionResult& 
   if (result.start_check) report["start_check"] = ordered_json::parse(start_check_json(*result.start_check));
   if (result.localisation) report["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   add_watch(report, result.watch);
-  add_pose_graph(report, result);
+  add_map_moves(report, result);
   report["map"] = result.map_file;
   report["pictures"] = pictures;
   if (const auto error = pose_errors_.figures()) report["pose_error"] = json_of(*error);
@@ -325,7 +317,7 @@ std::string RunReport::summary_json(const Mission& mission, const MissionResult&
   if (result.start_check) summary["start_check"] = ordered_json::parse(start_check_json(*result.start_check));
   if (result.localisation) summary["localisation"] = ordered_json::parse(localisation_json(*result.localisation));
   add_watch(summary, result.watch);
-  add_pose_graph(summary, result);
+  add_map_moves(summary, result);
   if (result.resumed_s) summary["resumed_s"] = rounded(*result.resumed_s);
   summary["autosave"] = json_of(result.autosave);
   summary["map"] = result.map_file.empty() ? "" : (out / result.map_file).string();

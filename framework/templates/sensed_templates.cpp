@@ -79,8 +79,8 @@ LandmarkTemplate render_sensed(const Studio& studio, const LandmarkShape& shape,
   if (cells.empty())
     throw std::runtime_error("sensed templates: an orbit round the " + shape.category +
                              " left no edge in the map that is steep enough to be recognised");
-  const bool has_smooth_faces = surface == Surface::smooth && !shape.contour.is_circle();
-  return {shape.category, orientation_rad, std::move(cells), has_smooth_faces ? options.smooth_tolerance : 1.0};
+  return {shape.category, orientation_rad, std::move(cells),
+          surface == Surface::smooth ? options.smooth_tolerance : 1.0};
 }
 
 struct RenderTask {
@@ -101,7 +101,7 @@ std::vector<LandmarkTemplate> render_all(const Studio& studio, const std::vector
 
 std::vector<RenderTask> render_tasks_for(const LandmarkShape& shape, double step_rad, double cell_m,
                                          const SensedOptions& options, const RobotModel& robot) {
-  const bool smooth_too = options.smooth_too && robot.lasers.empty();
+  const bool smooth_too = options.smooth_too && !shape.contour.is_circle() && robot.lasers.empty();
   std::vector<RenderTask> tasks;
   for (const double orientation_rad : distinct_orientations(shape.contour, step_rad, cell_m))
     for (const double size : options.sizes) {

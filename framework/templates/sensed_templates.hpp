@@ -12,9 +12,9 @@
 namespace cairn {
 
 struct SensedOptions {
-  std::vector<double> sizes{1.0};  // as shares of a shape's own; a template each
-  bool smooth_too = true;          // a second template each, of the landmark with a smooth surface
-  double smooth_tolerance = 1.2;   // of these, but for circles, which answer to all sides (LandmarkTemplate::tolerance)
+  std::vector<double> sizes{1.0};        // as shares of a shape's own; a template each
+  bool smooth_too = false;               // a second template each, of the landmark with a smooth surface
+  double smooth_tolerance = 1.2;         // of these (LandmarkTemplate::tolerance)
   std::vector<double> gaps_m{0.2, 0.6};  // from the contour's outer circle to the robot's; an orbit each way at each
   double speed_mps = 0.3;
   double edge_inside_cells = 2.0;   // the template's cells: this far inside the contour
