@@ -39,15 +39,14 @@ void describe_templates(Fields<Config>& fields) {
   fields.numbers("sizes", sizes, {0.5, 2.0}, "",
                  "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
                  "size varies");
-  fields.flag(
-      "smooth_too", smooth_too,
-      "for sonars: sensed templates with straight faces are rendered a second time with a smooth surface, which echoes "
-      "only where a beam meets it at a right angle; up to twice the time to match");
+  fields.flag("smooth_too", smooth_too,
+              "for robots without a laser: sensed templates with straight faces are rendered a second time with a "
+              "smooth surface, which echoes "
+              "only where a beam meets it at a right angle; up to twice the time to match");
   fields.number(
       "smooth_tolerance", &Config::smooth_tolerance, {1.0, 2.0}, "",
-      "of these, so many times the mismatch is allowed where nothing fits otherwise: of smooth faces a drive through a "
-      "room shows less than "
-      "the orbits that they are rendered from");
+      "template_matcher: the mismatch of a smooth template is divided by this where no template fits without it; a "
+      "drive through a room shows less of smooth faces than the orbits that they are rendered from");
   fields.number("ring_offset_m", &Config::ring_offset_m, {-0.2, 0.2}, "m",
                 "of drawn templates (`rendering: ideal`): how far outside the outline the ring is drawn, as maps of "
                 "sonars show it; 0: on the outline, as in the paper");

@@ -265,8 +265,9 @@ MissionModules build_modules(const Mission& mission, const ModuleLibrary& librar
   built.localizer = build_localizer(mission, library,
                                     start_known.value_or(LocalizerStart{built.T_map_start, {}, usable_submaps(resume)}),
                                     built.loop_closer_calls);
-  // One that the localizer does not take is made for its errors alone.
-  if (is_chosen(config.loop_closer)) (void)build_loop_closer(mission, library, built.loop_closer_calls);
+  // One that the localizer does not take (who takes one shares its calls) is made for its errors alone.
+  if (is_chosen(config.loop_closer) && built.loop_closer_calls.use_count() == 1)
+    (void)build_loop_closer(mission, library, built.loop_closer_calls);
   built.mapper = build_mapper(mission, library);
   if (resume != nullptr) built.mapper = mapper_that_goes_on(mission, library, *built.mapper, resume->grid);
   if (!config.detector.name.empty() && !is_left_alone)

@@ -84,7 +84,7 @@ struct MissionResult {
   std::optional<LocalisationFigures> localisation{};  // of a run that leaves its map alone
   std::optional<PoseCheck> start_check{};             // of a run that goes on with a map, and drives
   WatchFigures watch{};                               // whether the robot was carried under way
-  std::optional<SubmapCounts> pose_graph{};           // of a localizer that keeps one: as it was last saved
+  std::optional<SubmapCounts> pose_graph{};           // of the map as it was last saved, earlier runs' part too
   std::uint64_t map_moves = 0;                        // how often the map was drawn anew, or exchanged
   std::string map_file;                               // name in the output folder; empty: could not be saved
 };

@@ -14,7 +14,7 @@ namespace cairn {
 // The doubts of a mission under way, and the times that its robot was carried.
 [[nodiscard]] std::string doubts_json(const WatchFigures& figures);
 [[nodiscard]] std::string carried_json(const WatchFigures& figures);
-// How many loops closed, of a localizer that keeps a pose graph.
+// Of a saved map that has a pose graph: how many loops close it.
 [[nodiscard]] std::string pose_graph_json(const SubmapCounts& counts);
 [[nodiscard]] std::string localisation_json(const LocalisationFigures& figures);
 

@@ -104,7 +104,7 @@ std::vector<RangeReading> derived_ring(const std::vector<RangeReading>& beams, c
 // For the report, where nobody should take them for the log's own.
 std::string with_worn_wheels(std::string reason, const WornWheels& wheels) {
   if (wheels.length_ratio == 0.0 && wheels.rad_per_m == 0.0) return reason;
-  return fmt::format("{}{}odometry worsened: {:.3g} % longer, {:.3g} deg for the root of each metre, seed {}", reason,
+  return fmt::format("{}{}odometry worsened: {:.3g} % longer, {:.3g} deg per square root of a metre, seed {}", reason,
                      reason.empty() ? "" : "; ", 100.0 * wheels.length_ratio, degrees(wheels.rad_per_m), wheels.seed);
 }
 

@@ -35,8 +35,8 @@ struct ScoreRule {
 // Whether a template fits that needs no tolerance for it.
 [[nodiscard]] bool fits_without_tolerance(std::span<const TemplateMatch> matches,
                                           std::span<const LandmarkTemplate> templates, const ScoreRule& rule);
-// Raises the mismatches of tolerant templates so that their degrees are those without tolerance: where something fits
-// without, it must not be beaten by what does not.
+// Raises the mismatches of tolerant templates so that their degrees are those without tolerance, to 0.002: where
+// something fits without, it must not be beaten by what does not. above_unseen() then has the raised mismatch, too.
 void take_tolerance(std::span<TemplateMatch> matches, std::span<const LandmarkTemplate> templates);
 
 // Index of the template that fits best; ties go to the first.

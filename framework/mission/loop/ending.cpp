@@ -74,9 +74,9 @@ MissionLoop::Ending MissionLoop::at_end_of_data(const std::string& reason) const
 
 // It may take a minute, in which no tick comes.
 void MissionLoop::publish_work_at_end() {
-  if (options_.control == nullptr || !perception_.has_history()) return;
+  if (options_.control == nullptr || world_.grid == nullptr || !perception_.has_history()) return;
   RunStatus status = status_in(RunState::running);
-  status.doing = "all submaps are searched once more, and the map is drawn for the last time";
+  status.doing = "the poses are corrected and the map is drawn for the last time";
   options_.control->publish(status);
 }
 

@@ -96,6 +96,7 @@ ordered_json json_of(const SavedMap& map, int schema) {
   const CellBox bounds = map.grid.bounds();
   const double cell_m = map.grid.cell_m();
   const Point corner = map.grid.origin_m() + cell_m * Point(bounds.min.x, bounds.min.y);
+  const SubmapCounts submaps = counts_of(map.submaps);
   return {{"schema", schema},
           {"cell_m", cell_m},
           {"size_cells", {bounds.width(), bounds.height()}},
@@ -103,11 +104,11 @@ ordered_json json_of(const SavedMap& map, int schema) {
           {"landmarks", map.graph.landmarks().size()},
           {"routes", map.graph.routes().size()},
           {"components", components_of(map.graph)},
-          {"submaps", map.submaps.submaps.size()},
-          {"submap_nodes", map.submaps.nodes.size()},
-          {"submap_edges", map.submaps.edges.size()},
-          {"submap_closures", counts_of(map.submaps).closures},
-          {"submap_closures_believed", counts_of(map.submaps).closures_believed},
+          {"submaps", submaps.submaps},
+          {"submap_nodes", submaps.nodes},
+          {"submap_edges", submaps.edges},
+          {"submap_closures", submaps.closures},
+          {"submap_closures_believed", submaps.closures_believed},
           {"close_categories", close_json(map.graph)},
           {"levels", levels_json(map)},
           {"clusters", clusters_json(map)},

@@ -175,7 +175,7 @@ TEST(LaserLog, AScanBecomesTheReadingsOfARingOfSonarsWhereThatIsAskedFor) {
   EXPECT_TRUE(std::isinf(step.observation.ranges[7].range_m)) << "beyond the sonar's reach";
 }
 
-TEST(LaserLog, WornWheelsAreToldAtTheEnd) {
+TEST(LaserLog, TheReasonAtTheEndNamesWornWheels) {
   const log_files::LogFolder folder;
   const std::string file = folder.write("a.log", kFlaser);
   const auto end_of = [&](const Config& config) {
@@ -187,7 +187,7 @@ TEST(LaserLog, WornWheelsAreToldAtTheEnd) {
   Config worn;
   worn.worsen = {0.03, radians(2.0), 4};
   EXPECT_EQ(end_of({}).find("odometry worsened"), std::string::npos);
-  EXPECT_NE(end_of(worn).find("odometry worsened: 3 % longer, 2 deg for the root of each metre, seed 4"),
+  EXPECT_NE(end_of(worn).find("odometry worsened: 3 % longer, 2 deg per square root of a metre, seed 4"),
             std::string::npos);
 }
 
