@@ -39,10 +39,10 @@ void describe_templates(Fields<Config>& fields) {
   fields.numbers("sizes", sizes, {0.5, 2.0}, "",
                  "templates are rendered in each of these sizes, as shares of the shape's own; for landmarks whose "
                  "size varies");
-  fields.flag("smooth_too", smooth_too,
-              "for robots without a laser: sensed templates with straight faces are rendered a second time with a "
-              "smooth surface, which echoes "
-              "only where a beam meets it at a right angle; up to twice the time to match");
+  fields.flag(
+      "smooth_too", smooth_too,
+      "for robots without a laser: sensed templates with straight faces are rendered a second time with a "
+      "smooth surface, which echoes only where a beam meets it at a right angle; up to twice the time to match");
   fields.number(
       "smooth_tolerance", &Config::smooth_tolerance, {1.0, 2.0}, "",
       "template_matcher: the mismatch of a smooth template is divided by this where no template fits without it; a "

@@ -26,8 +26,8 @@ struct LandmarkTemplate {
   std::string category;
   double orientation_rad = 0.0;
   std::vector<TemplateCell> cells;  // sorted by (y, x)
-  // How many times as much mismatch counts as for another: more than 1 where drives through a room show less of the
-  // landmark than the drive that the template is of, as with smooth faces.
+  // Its mismatch is divided by this: more than 1 where drives through a room show less of the landmark than the drive
+  // that the template is of, as with smooth faces.
   double tolerance = 1.0;
 
   // The cells that a mismatch is divided by.
