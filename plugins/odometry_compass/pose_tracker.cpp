@@ -34,7 +34,7 @@ bool is_usable(const Eigen::Matrix2d& c) {
 
 // Of a position and a heading.
 bool is_usable(const Eigen::Matrix3d& c) {
-  return (c - c.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * c.cwiseAbs().maxCoeff() &&
+  return c.allFinite() && (c - c.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * c.cwiseAbs().maxCoeff() &&
          c.llt().info() == Eigen::Success;
 }
 

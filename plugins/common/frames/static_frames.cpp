@@ -15,7 +15,8 @@ bool StaticFrames::add(const std::string& parent, const std::string& child, cons
                        const Eigen::Quaterniond& rotation) {
   const double size = rotation.squaredNorm();
   if (parent.empty() || child.empty() || parent == child) return false;
-  if (!(position_m.cwiseAbs().maxCoeff() <= kFarthest_m) || !(size > 0.5 && size < 2.0)) return false;
+  const bool is_near = position_m.allFinite() && position_m.cwiseAbs().maxCoeff() <= kFarthest_m;
+  if (!is_near || !(size > 0.5 && size < 2.0)) return false;
   if (!frames_.contains(child) && frames_.size() >= kMaxFrames) return false;
   frames_[child] = {parent, Eigen::Translation3d(position_m) * rotation.normalized()};
   return true;

@@ -50,7 +50,11 @@ TEST(StaticFrames, KnowWhatHangsUpsideDownAndWhatLooksUp) {
 TEST(StaticFrames, TakeNothingThatIsNoPoseAndNeverMoreThanTheyMay) {
   frames::StaticFrames frames;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(frames.add("base", "laser", {nan, 0.0, 0.0}, kAsItIs));
+  for (int axis = 0; axis < 3; ++axis) {
+    Vector3d position_m = Vector3d::Zero();
+    position_m[axis] = nan;
+    EXPECT_FALSE(frames.add("base", "laser", position_m, kAsItIs)) << "axis " << axis;
+  }
   EXPECT_FALSE(frames.add("base", "laser", {1e9, 0.0, 0.0}, kAsItIs));
   EXPECT_FALSE(frames.add("base", "laser", {0.0, 0.0, 0.0}, Quaterniond(0.0, 0.0, 0.0, 0.0)));
   EXPECT_FALSE(frames.add("base", "base", {0.0, 0.0, 0.0}, kAsItIs));
