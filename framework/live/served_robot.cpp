@@ -20,17 +20,18 @@ std::string ServedRobot::take(const std::string& line) {
       robot_->drive()->command(message.twist, message.valid_for_s);
       orders_.order(message.twist, message.valid_for_s, stamp_s_);
     }
-    if (message.kind == ClientLine::Kind::stop) {
-      robot_->drive()->stop();
-      orders_.stop();
-    }
+    if (message.kind == ClientLine::Kind::stop) stop();
     is_asked_ = is_asked_ || message.kind == ClientLine::Kind::next;
     return {};
   } catch (const std::exception& error) {
-    robot_->drive()->stop();
-    orders_.stop();
+    stop();
     return "{\"refused\":" + fault_line(error.what()).substr(sizeof "{\"fault\":" - 1);
   }
+}
+
+void ServedRobot::stop() {
+  robot_->drive()->stop();
+  orders_.stop();
 }
 
 bool ServedRobot::take_request() {

@@ -7,6 +7,7 @@
 #include "framework/mission/resume.hpp"
 #include "framework/mission/start_wait.hpp"
 #include "framework/modules/fence.hpp"
+#include "framework/modules/making.hpp"
 #include "framework/templates/sensed_templates.hpp"
 #include "maps/base/portable_random.hpp"
 #include "maps/base/text.hpp"
@@ -20,6 +21,7 @@ namespace {
 template <class Interface>
 std::shared_ptr<Interface> build_at(const SourcePlace& place, const ModuleLibrary& library, const PluginChoice& choice,
                                     const ContextOf<Interface>& context) {
+  const ModuleMaking making(choice.name, std::is_same_v<Interface, Sensor>);
   try {
     return fenced_making(choice.name, [&] { return library.make<Interface>(choice, context); });
   } catch (const ConfigError& error) {
@@ -154,6 +156,7 @@ std::optional<Pose2> start_from_sensor(const MissionConfig& config, const Sensor
   const auto is_cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   const bool was_cancelled = is_cancelled();
   const StartWait wait(sensor, options.on_wait);
+  const ModuleMaking making(config.sensor.name, true);
   const auto start = fenced("sensor", config.sensor.name, [&] { return sensor.start(); });
   if (is_cancelled() && !was_cancelled)
     throw ConfigError(config.sensor.config.place, config.sensor.name + " was still being asked where the robot begins");

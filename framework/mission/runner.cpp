@@ -1,12 +1,61 @@
 #include "framework/mission/runner.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <thread>
 
 #include "framework/mission/loop/mission_loop.hpp"
 
 namespace cairn {
+namespace {
+
+using OnWait = std::function<void(const std::string&)>;
+
+// Tells people what the sensor waits for, in a thread of its own: neither the module that is asked nor a terminal that
+// takes nothing may hold up the thread that stops the wheels.
+class WaitTeller {
+ public:
+  // Without on_wait nothing is told.
+  WaitTeller(std::shared_ptr<const MissionLoop> loop, OnWait on_wait) {
+    if (!on_wait) return;
+    thread_ = std::thread(
+        [loop = std::move(loop), on_wait = std::move(on_wait), is_over = is_over_, done = std::move(done_)]() mutable {
+          tell(*loop, on_wait, *is_over);
+          done.set_value();
+        });
+  }
+  // Whether the thread has ended; one that is stuck is left behind.
+  [[nodiscard]] bool end() {
+    constexpr std::chrono::seconds kLongest(1);
+    if (!thread_.joinable()) return true;
+    *is_over_ = true;
+    const bool has_ended = is_done_.wait_for(kLongest) == std::future_status::ready;
+    if (has_ended)
+      thread_.join();
+    else
+      thread_.detach();
+    return has_ended;
+  }
+
+ private:
+  static void tell(const MissionLoop& loop, const OnWait& on_wait, const std::atomic<bool>& is_over) {
+    for (bool is_waiting = false; !is_over; std::this_thread::sleep_for(kControlPollInterval)) {
+      const std::string sentence = loop.waits_for();
+      if (!sentence.empty() && !is_waiting) on_wait(sentence);
+      is_waiting = !sentence.empty();
+    }
+  }
+
+  std::shared_ptr<std::atomic<bool>> is_over_ = std::make_shared<std::atomic<bool>>(false);
+  std::promise<void> done_;
+  std::future<void> is_done_ = done_.get_future();
+  std::thread thread_;
+};
+
+}  // namespace
+
 std::string_view name_of(MissionOutcome outcome) {
   switch (outcome) {
     case MissionOutcome::done:
@@ -67,24 +116,17 @@ void MissionRunner::watch() {
     loop->run();
     promise.set_value();
   });
+  WaitTeller teller(loop_, on_wait_);
   const std::chrono::nanoseconds longest(std::llround(longest_call_s_ * 1e9));
   while (!wall_clock_->wait_for(done, kControlPollInterval) && !gave_up_) {
     loop_->stop_if_stalled();
-    report_wait();
     gave_up_ = loop_->give_up_after(longest);
   }
   if (gave_up_)
     thread.detach();
   else
     thread.join();
-  gave_up_ = gave_up_ || loop_->exit_was_called_elsewhere();
-}
-
-void MissionRunner::report_wait() {
-  if (!on_wait_) return;
-  const std::string sentence = loop_->waits_for();
-  if (!sentence.empty() && !is_waiting_) on_wait_(sentence);
-  is_waiting_ = !sentence.empty();
+  gave_up_ = !teller.end() || gave_up_ || loop_->exit_was_called_elsewhere();
 }
 
 RunStatus MissionRunner::status() const {

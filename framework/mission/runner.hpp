@@ -128,14 +128,12 @@ class MissionRunner {
 
  private:
   void watch();
-  void report_wait();
 
   std::shared_ptr<MissionLoop> loop_;
   std::shared_ptr<const WallClock> wall_clock_;
   RunControl* control_ = nullptr;
   double longest_call_s_ = 0.0;
   std::function<void(const std::string&)> on_wait_;
-  bool is_waiting_ = false;
   bool gave_up_ = false;
 };
 

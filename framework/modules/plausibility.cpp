@@ -3,18 +3,26 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 namespace cairn {
 namespace {
 
+bool is_finite(const std::vector<TemplateDegree>& templates) {
+  return std::ranges::all_of(templates, [](const TemplateDegree& fit) {
+    return std::isfinite(fit.degree) && std::isfinite(fit.orientation_rad);
+  });
+}
+
 bool is_finite(const Matching& matching) {
   for (const CategoryDegree& degree : matching.degrees)
     if (!std::isfinite(degree.degree) || !degree.at_m.allFinite() || !std::isfinite(degree.orientation_rad))
       return false;
+  if (!is_finite(matching.templates)) return false;
   if (!matching.detection) return true;
   const auto& [category, T_map_landmark, degree, templates] = *matching.detection;
-  return cairn::is_finite(T_map_landmark) && std::isfinite(degree);
+  return cairn::is_finite(T_map_landmark) && std::isfinite(degree) && is_finite(templates);
 }
 
 bool is_near(const Point& at_m, const OccupancyGrid& grid) {
@@ -29,6 +37,8 @@ bool is_near(const Point& at_m, const OccupancyGrid& grid) {
 std::string ObservationCheck::fault_of(const Observation& observation) {
   if (!std::isfinite(observation.stamp_s) || !cairn::is_finite(observation.T_odom_robot))
     return "returned a stamp or an odometry that is not finite";
+  if (observation.compass_rad && !std::isfinite(*observation.compass_rad))
+    return "returned a compass heading that is not finite";
   const WallClock::Time here = wall_clock_->now();
   if (last_stamp_s_) {
     const double passed_s = observation.stamp_s - *last_stamp_s_;
@@ -49,22 +59,31 @@ bool ObservationCheck::is_clock_possible(double passed_s, double here_s) const {
   return passed_s >= -kMaxStampBack_s && passed_s <= kMaxStampAhead_s;
 }
 
-std::string ObservationCheck::fault_of_motion(const Pose2& T_odom_robot, double passed_s) const {
+// A live robot that goes on being too fast, each step by a little, uses up what it may leap.
+std::string ObservationCheck::fault_of_motion(const Pose2& T_odom_robot, double passed_s) {
+  spare_m_ = std::min(kMaxLiveLeap_m, spare_m_ + kMaxLiveLeap_m * passed_s);
+  spare_rad_ = std::min(kMaxLiveTurn_rad, spare_rad_ + kMaxLiveTurn_rad * passed_s);
   const double leap_m = (T_odom_robot.position() - T_odom_last_.position()).norm();
-  const double max_leap_m =
-      is_live_ ? kMaxLiveLeap_m + 3.0 * max_v_mps_ * passed_s : kMaxOdometryLeap_m + 10.0 * max_v_mps_ * passed_s;
-  if (leap_m > max_leap_m)
+  const double usual_m = (is_live_ ? 3.0 : 10.0) * max_v_mps_ * passed_s;
+  if (leap_m > usual_m + (is_live_ ? spare_m_ : kMaxOdometryLeap_m))
     return fmt::format("returned an odometry that leaps by {:g} m within {:g} s", leap_m, passed_s);
+  spare_m_ -= std::max(leap_m - usual_m, 0.0);
   const double turn_rad = std::abs(wrap_angle(T_odom_robot.theta_rad - T_odom_last_.theta_rad));
-  if (is_live_ && turn_rad > kMaxLiveTurn_rad + 3.0 * max_w_radps_ * passed_s)
+  const double usual_rad = 3.0 * max_w_radps_ * passed_s;
+  if (is_live_ && turn_rad > usual_rad + spare_rad_)
     return fmt::format("returned an odometry that turns by {:.0f} degrees within {:g} s", degrees(turn_rad), passed_s);
+  spare_rad_ -= std::max(turn_rad - usual_rad, 0.0);
   return {};
 }
 
-std::string fault_of(const PoseEstimate& pose) {
+std::string fault_of(const GroundTruth& truth) {
+  return cairn::is_finite(truth.T_map_robot) ? "" : "returned a true place that is not finite";
+}
+
+std::string fault_of(const PoseEstimate& pose, double max_m) {
   if (!cairn::is_finite(pose.T_map_robot) || !pose.covariance.allFinite()) return "returned a pose that is not finite";
   const double out_m = pose.T_map_robot.position().norm();
-  if (out_m > kMaxPlace_m) return fmt::format("returned a pose {:g} m from the map's origin", out_m);
+  if (out_m > max_m) return fmt::format("returned a pose {:g} m from the map's origin", out_m);
   return {};
 }
 
@@ -75,6 +94,9 @@ std::string fault_of(const MarkerSighting& sighting) {
   };
   if (is_wrong(sighting.pose) || (sighting.mirrored && is_wrong(*sighting.mirrored)))
     return "returned a marker whose pose is not finite or whose covariance is none";
+  const auto away_m = [](const MarkerPose& pose) { return pose.T_robot_marker.position().norm(); };
+  const double furthest_m = std::max(away_m(sighting.pose), sighting.mirrored ? away_m(*sighting.mirrored) : 0.0);
+  if (furthest_m > kMaxMarkerAway_m) return fmt::format("returned a marker {:g} m away", furthest_m);
   return {};
 }
 
@@ -98,6 +120,14 @@ std::string fault_of(const Matching& matching, const OccupancyGrid& grid) {
   if (!matching.detection || is_near(matching.detection->T_map_landmark.position(), grid)) return {};
   const Pose2& at = matching.detection->T_map_landmark;
   return fmt::format("returned a detection at ({:g}, {:g}), which is outside of the map", at.x_m, at.y_m);
+}
+
+std::string fault_of(const PlanResult& plan) {
+  const bool has_numbers = std::isfinite(plan.cost_m) && std::isfinite(plan.length_m) &&
+                           std::ranges::all_of(plan.path, [](const Pose2& pose) { return cairn::is_finite(pose); });
+  if (!has_numbers) return "returned a path that is not finite";
+  if (plan.cost_m < 0.0 || plan.length_m < 0.0) return "returned a path of less than no length or cost";
+  return {};
 }
 
 }  // namespace cairn

@@ -23,6 +23,7 @@
 #include "framework/program/map/file_options.hpp"
 #include "framework/program/slam/slam_options.hpp"
 #include "framework/program/view/view_options.hpp"
+#include "framework/safety/fatal_ends.hpp"
 
 namespace cairn {
 namespace {
@@ -304,6 +305,17 @@ int main_of(int argc, char** argv) {
   return status;
 }
 
+int status_of(int argc, char** argv) {
+  const PrintableStream out(std::cout);
+  const PrintableStream err(std::cerr);
+  try {
+    return main_of(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "cairn: " << error.what() << "\n";
+    return kExitBadInput;
+  }
+}
+
 }  // namespace
 }  // namespace cairn
 
@@ -311,12 +323,8 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is reported like a full disk
   std::signal(SIGCHLD, SIG_DFL);  // whoever started this program may have ignored how children end
   if (argc == 3 && std::string_view(argv[1]) == cairn::kModuleTrialArgument) return cairn::run_module_trial(argv[2]);
-  const cairn::PrintableStream out(std::cout);
-  const cairn::PrintableStream err(std::cerr);
-  try {
-    return cairn::main_of(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "cairn: " << error.what() << "\n";
-    return cairn::kExitBadInput;
-  }
+  cairn::handle_fatal_ends();
+  const int status = cairn::status_of(argc, argv);
+  cairn::expect_end();
+  return status;
 }

@@ -8,6 +8,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <optional>
+#include <string>
+
+#include "framework/modules/making.hpp"
 
 namespace cairn {
 namespace {
@@ -16,12 +20,15 @@ constexpr std::size_t kMaxMissions = 64;
 constexpr std::size_t kStackBytes = std::size_t{64} << 10U;
 constexpr int kExitOfFailure = 1;
 constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
+// End the process by default too; whoever has a use for one handles it.
+constexpr std::array kUnhandledSignals{SIGALRM, SIGTRAP, SIGSYS, SIGXCPU, SIGVTALRM, SIGPROF, SIGIO, SIGSTKFLT, SIGPWR};
 constexpr int kMaxLooksForStop = 30;
 constexpr timespec kBetweenLooks{0, 5'000'000};
 
 // A signal handler can reach nothing else.
 std::array<std::atomic<FatalEnds*>, kMaxMissions> missions;
 std::array<struct sigaction, kFatalSignals.size()> earlier;
+std::atomic<bool> is_end_expected{false};
 static_assert(std::atomic<FatalEnds*>::is_always_lock_free && std::atomic<std::thread::id>::is_always_lock_free);
 
 // Where the process was ended.
@@ -49,8 +56,28 @@ const char* name_of_signal(int signal) {
       return "a second SIGINT";
     case SIGTERM:
       return "a second SIGTERM";
-    default:
+    case SIGABRT:
       return "SIGABRT";
+    case SIGALRM:
+      return "SIGALRM";
+    case SIGTRAP:
+      return "SIGTRAP";
+    case SIGSYS:
+      return "SIGSYS";
+    case SIGXCPU:
+      return "SIGXCPU";
+    case SIGVTALRM:
+      return "SIGVTALRM";
+    case SIGPROF:
+      return "SIGPROF";
+    case SIGIO:
+      return "SIGIO";
+    case SIGSTKFLT:
+      return "SIGSTKFLT";
+    case SIGPWR:
+      return "SIGPWR";
+    default:
+      return "a signal";
   }
 }
 
@@ -97,10 +124,18 @@ struct FatalEndHandlers {
     end(signal);
   }
 
+  // Of kUnhandledSignals.
+  static void on_unhandled(int signal) {
+    stop_all(name_of_signal(signal), Place::outside);
+    end(signal);
+  }
+
   static void end(int signal) {
     ::signal(signal, SIG_DFL);
     ::raise(signal);
   }
+
+  [[noreturn]] static void end_early();
 
   static void on_exit() {
     bool is_left_to_others = false;
@@ -115,10 +150,25 @@ struct FatalEndHandlers {
       (is_mission ? mission->exit_was_called_ : mission->exit_was_called_elsewhere_) = true;
       is_left_to_others = true;
     }
-    if (!is_left_to_others) return;
-    for (;;) ::pause();  // the thread that watches ends the process
+    if (is_left_to_others)
+      for (;;) ::pause();  // the thread that watches ends the process
+    if (!is_end_expected) end_early();
   }
 };
+
+// Not in a mission, and not in a signal handler.
+[[noreturn]] void FatalEndHandlers::end_early() {
+  const std::optional<std::string> module = module_being_made_here();
+  print("cairn: exit() was called");
+  if (module) print(" while module ");
+  if (module) print(module->c_str());
+  print(module ? " was being made\n" : " by a module or a library\n");
+  ::_exit(kExitOfFailure);
+}
+
+void expect_end() {
+  is_end_expected = true;
+}
 
 void end_by_signal(int signal) {
   FatalEndHandlers::stop_all(name_of_signal(signal), Place::outside);
@@ -133,7 +183,11 @@ void handle_fatal_ends() {
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
     ::sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < kFatalSignals.size(); ++i) ::sigaction(kFatalSignals[i], &action, &earlier[i]);
+    for (const int signal : kUnhandledSignals)
+      if (const auto before = ::signal(signal, FatalEndHandlers::on_unhandled); before != SIG_DFL)
+        ::signal(signal, before);
     (void)std::atexit(FatalEndHandlers::on_exit);
+    (void)std::at_quick_exit(FatalEndHandlers::on_exit);
   });
 }
 

@@ -15,9 +15,13 @@
 
 namespace cairn {
 
-// For the program, once, after modules are loaded: installs handlers for SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and
-// SIGQUIT, which go on to what was installed before, and one for exit().
+// For the program, once, before modules are loaded: installs handlers for SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and
+// SIGQUIT, which go on to what was installed before; for all other signals that end a process and that nobody handles;
+// and for exit() and quick_exit(), which end the process with status 1 and a line, whoever calls them, until
+// expect_end().
 void handle_fatal_ends();
+// main() returns next.
+void expect_end();
 
 // In a signal handler: the same for a signal that asks the process to end a second time.
 void end_by_signal(int signal);

@@ -1,5 +1,6 @@
 // Modules that fail in every way that a mission must survive, and a small sensor that works.
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <future>
 #include <limits>
@@ -244,6 +245,27 @@ void exit_well() {
   std::exit(0);  // NOLINT: a fault of a module
 }
 
+void exit_quickly() {
+  std::quick_exit(0);  // NOLINT: a fault of a module
+}
+
+void alarm() {
+  (void)std::raise(SIGALRM);
+}
+
+std::unique_ptr<Localizer> exit_while_made() {
+  std::exit(0);  // NOLINT: a fault of a module
+}
+
+std::unique_ptr<Localizer> hang_while_made() {
+  for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+template <std::unique_ptr<Localizer> (*make)()>
+void add_unmakable(Registrar& registrar, const char* name) {
+  registrar.add<Localizer, NoConfig>(name, "for tests", [](const NoConfig&, const ModuleContext&) { return make(); });
+}
+
 void exit_elsewhere() {
   std::thread([] { std::exit(0); }).detach();  // NOLINT: a fault of a module
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
@@ -318,6 +340,10 @@ void register_module(Registrar& registrar) {
   add_ending<terminate>(registrar, "terminate");
   add_ending<exit_well>(registrar, "exit_well");
   add_ending<exit_elsewhere>(registrar, "exit_elsewhere");
+  add_ending<exit_quickly>(registrar, "exit_quickly");
+  add_ending<alarm>(registrar, "alarm");
+  add_unmakable<exit_while_made>(registrar, "exiting_constructor");
+  add_unmakable<hang_while_made>(registrar, "hanging_constructor");
   add_ending<overflow_the_stack>(registrar, "overflow");
   registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",
                                      [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Localizer> {

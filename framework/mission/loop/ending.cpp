@@ -97,7 +97,7 @@ void MissionLoop::finish() {
       world_.pose.T_map_robot = perception_.past().poses().back().T_map_robot;
     }
     if (ending_.outcome != MissionOutcome::cancelled && world_.grid != nullptr) connect_landmarks();
-  } catch (const ModuleFault& fault) {
+  } catch (const std::exception& fault) {  // whatever it is: the map is saved
     add_sentence(ending_.reason, fault.what());
     ending_.outcome = MissionOutcome::module_fault;
   }

@@ -103,6 +103,8 @@ void MissionLoop::run() {
     finish();
   } catch (const GivenUp&) {
   }
+  if (ending_.outcome != MissionOutcome::module_fault && fatal_ends_.exit_was_called_elsewhere())
+    ending_ = {MissionOutcome::module_fault, kExitElsewhere};
 }
 
 MissionLoop::Ending MissionLoop::loop() {
@@ -138,6 +140,8 @@ MissionLoop::Sensed MissionLoop::sense() {
   if (sensed.step.state != SensorState::observation) return sensed;
   if (const std::string fault = observation_check_.fault_of(sensed.step.observation); !fault.empty())
     throw modules_.sensor.fault(fault);
+  if (sensed.truth)
+    if (const std::string fault = fault_of(*sensed.truth); !fault.empty()) throw modules_.sensor.fault(fault);
   return sensed;
 }
 

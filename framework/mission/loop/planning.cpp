@@ -1,9 +1,15 @@
 #include "framework/mission/loop/planning.hpp"
 
+#include "framework/modules/plausibility.hpp"
 #include "framework/planning/margins.hpp"
 
 namespace cairn {
 namespace {
+
+PlanResult plausible(const Staged<Planner>& planner, PlanResult plan) {
+  if (const std::string fault = fault_of(plan); !fault.empty()) throw planner.fault(fault);
+  return plan;
+}
 
 constexpr std::size_t kJoiningSeed = 1;  // 0: the planner itself
 static_assert(kMaxMarginDetour <= LandmarkConnector::kMaxMarginDetour);
@@ -48,7 +54,8 @@ PlanResult Planning::plan(const PlanRequest& request, WorldView world) {
   grid_ = &world.grid;
   hierarchies_.update();
   if (world.pose.trust != PoseTrust::lost) world.hierarchies = &hierarchies_;
-  return modules_.planner.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
+  return plausible(modules_.planner,
+                   modules_.planner.call([&](Planner& planner) { return planner.plan(request, world, budget_); }));
 }
 
 void Planning::connect(LandmarkTracker& tracker, WorldView world) {
@@ -56,7 +63,8 @@ void Planning::connect(LandmarkTracker& tracker, WorldView world) {
   monitor_.stand();
   world.hierarchies = nullptr;  // the graph changes meanwhile
   const PlanCall ask = [&](const PlanRequest& request) {
-    return modules_.routes.call([&](Planner& planner) { return planner.plan(request, world, budget_); });
+    return plausible(modules_.routes,
+                     modules_.routes.call([&](Planner& planner) { return planner.plan(request, world, budget_); }));
   };
   // As questions are planned afterwards, which else would find the routes too narrow.
   const std::vector<double> margins_m = usual_margins_m(mission_.robot, world.grid);

@@ -74,10 +74,17 @@ const OccupancyGrid& Perception::go_on(std::shared_ptr<Localizer> localizer, std
   return begin(records_poses_);
 }
 
+// Where no grid can hold what is seen there, it is the localizer that is wrong, and not the mapper.
+void Perception::check_place(const PoseEstimate& pose) const {
+  constexpr double kOfGrid = 0.98;  // the rest is for what is seen from there
+  const double max_m = std::min(kMaxPlace_m, kOfGrid * OccupancyGrid::kLargestCellIndex * grid_->cell_m());
+  if (const std::string fault = fault_of(pose, max_m); !fault.empty()) throw modules_.localizer.fault(fault);
+}
+
 void Perception::localize_in_own_map(const Observation& observation) {
   const KnownMap known{*own_->grid, no_landmarks_};
   own_->pose = modules_.localizer.call([&](Localizer&) { return own_->localizer->update(observation, known); });
-  if (const std::string fault = fault_of(own_->pose); !fault.empty()) throw modules_.localizer.fault(fault);
+  check_place(own_->pose);
 }
 
 const OccupancyGrid& Perception::begin(bool records_poses) {
@@ -117,7 +124,7 @@ PoseEstimate Perception::localize(const Observation& observation) {
   const KnownMap known{*grid_, use_ == MapUse::lost ? no_landmarks_ : tracker_.graph()};
   PoseEstimate pose =
       modules_.localizer.call([&](Localizer& localizer) { return localizer.update(observation, known); });
-  if (const std::string fault = fault_of(pose); !fault.empty()) throw modules_.localizer.fault(fault);
+  check_place(pose);
   follow_corrections();
   pose = moved(frame_.T_drawn_map(), pose);
   if (own_) localize_in_own_map(observation);

@@ -109,6 +109,7 @@ class Perception {
     PoseEstimate pose{};
     const MapSnapshot* before = nullptr;
   };
+  void check_place(const PoseEstimate& pose) const;
   void localize_in_own_map(const Observation& observation);
   [[nodiscard]] Detected detect(const CellChanges& changes, const Budget& budget);
   [[nodiscard]] double correct_past(std::size_t newer);

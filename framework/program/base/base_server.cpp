@@ -63,10 +63,15 @@ void BaseServer::read_client() {
   while (const auto line = reader_.next())
     if (const std::string answer = robot_.take(*line); !answer.empty())
       is_there = writer_.write(client_.get(), answer) && is_there;
-  if (!is_there) client_ = Descriptor();
+  if (!is_there) lose_client();
 }
 
-// The robot goes on as it was ordered, for as long as that counts, whoever comes.
+// A client that is gone orders nothing more, and what it ordered last was not for this.
+void BaseServer::lose_client() {
+  client_ = Descriptor();
+  robot_.stop();
+}
+
 void BaseServer::accept_client() {
   while (true) {
     Descriptor caller(::accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
@@ -86,7 +91,7 @@ void BaseServer::accept_client() {
 
 void BaseServer::tick() {
   const live::ServedRobot::Tick tick = robot_.tick();
-  if (client_.get() >= 0 && !writer_.write(client_.get(), tick.line)) client_ = Descriptor();
+  if (client_.get() >= 0 && !writer_.write(client_.get(), tick.line)) lose_client();
   if (!tick.fault.empty()) throw std::runtime_error(tick.fault);
   if (log_.is_open()) write_log(tick);
   schedule(tick.stamp_s);

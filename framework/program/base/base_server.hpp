@@ -35,6 +35,7 @@ class BaseServer {
   void wait_until(Clock::time_point due, const std::atomic<bool>& end);
   void read_client();
   void accept_client();
+  void lose_client();
   void tick();
   void schedule(double stamp_s);
   void write_log(const live::ServedRobot::Tick& tick);

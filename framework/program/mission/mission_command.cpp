@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "framework/behaviour_tree/tree_text.hpp"
 #include "framework/mission/check.hpp"
 #include "framework/program/common/commands.hpp"
+#include "framework/program/common/making_watch.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/base/text.hpp"
@@ -65,6 +68,11 @@ std::string size_text(std::size_t steps, std::size_t nodes) {
 }  // namespace
 
 int mission_check(const MissionCheckCommand& command, const CommonOptions& common) {
+  const std::atomic<bool> is_cancelled = false;  // signals end this command at once
+  const MakingWatch watch({MissionConfig{}.watchdog_s, is_cancelled}, [](const std::string& sentence, bool) {
+    std::cerr << sentence << "\n" << std::flush;
+    std::_Exit(kExitBadInput);
+  });
   const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   ordered_json rows = ordered_json::array();

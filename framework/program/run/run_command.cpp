@@ -15,6 +15,7 @@
 #include "framework/modules/fence.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
+#include "framework/program/common/making_watch.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
 #include "framework/program/common/print.hpp"
@@ -29,7 +30,6 @@
 #include "framework/program/run/viewer.hpp"
 #include "framework/reporting/report.hpp"
 #include "framework/reporting/watching/watch_source.hpp"
-#include "framework/safety/fatal_ends.hpp"
 #include "maps/base/text.hpp"
 #include "maps/exchange/pose_graphs/stamped_poses.hpp"
 #include "maps/landmarks/close_categories.hpp"
@@ -120,8 +120,32 @@ class CancelledEarly : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+int report_cancelled(const CommonOptions& common, const std::string& reason) {
+  (common.json ? std::cerr : std::cout) << "\n  outcome     cancelled: cancelled by the user before the mission began: "
+                                        << reason << "\n"
+                                        << std::flush;
+  if (common.json) print_json({{"outcome", name_of(MissionOutcome::cancelled)}, {"reason", reason}});
+  return kExitNotSolved;
+}
+
+void publish_cancelled(const Mission& mission, RunControl& control, const std::string& reason) {
+  RunStatus status;
+  status.mission = mission.config.mission;
+  status.state = RunState::ended;
+  status.outcome = name_of(MissionOutcome::cancelled);
+  status.reason = reason;
+  control.publish(status);
+}
+
 MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
-                        const RunCommand& command) {
+                        const RunCommand& command, const CommonOptions& common) {
+  const MakingWatch watch({mission.config.watchdog_s, *options.cancel}, [&](const std::string& sentence, bool by_user) {
+    if (by_user) publish_cancelled(mission, *options.control, sentence);
+    if (!by_user) std::cerr << "cairn: " << sentence << "\n" << std::flush;
+    const int status = by_user ? report_cancelled(common, sentence) : kExitBadInput;
+    std::cout.flush();
+    std::_Exit(status);
+  });
   try {
     const std::filesystem::path& map = options.localise_in ? command.localise_in : command.resume;
     return refused_about<StoreError>(map.string(), [&] {
@@ -131,12 +155,7 @@ MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, co
     });
   } catch (const ConfigError& error) {
     if (!*options.cancel) throw;
-    RunStatus status;
-    status.mission = mission.config.mission;
-    status.state = RunState::ended;
-    status.outcome = name_of(MissionOutcome::cancelled);
-    status.reason = error.sentence();
-    options.control->publish(status);
+    publish_cancelled(mission, *options.control, error.sentence());
     throw CancelledEarly(error.sentence());
   }
 }
@@ -255,7 +274,6 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunResults results(command, common, mission);
   const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
-  handle_fatal_ends();
   make_folder(command.out);
   hold_folder(command.out);
   std::ostream& people = common.json ? std::cerr : std::cout;
@@ -269,7 +287,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   options.on_wait = [](const std::string& sentence) { std::cerr << sentence << "\n" << std::flush; };
   if (known) options.localise_in = LocaliseIn{&known->map, known->T_map_start};
   if (resume) options.T_map_resumed = pose;
-  MissionRunner runner = runner_of(mission, library, options, command);
+  MissionRunner runner = runner_of(mission, library, options, command, common);
   choose_recordings(mission.config, command, runner.has_drive() && !mission.world);
   if (!known) keep_earlier_run(command, mission.config, people);
   RunReport report(mission.config.history);
@@ -297,10 +315,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   try {
     return run_mission(command, common);
   } catch (const CancelledEarly& cancelled) {
-    (common.json ? std::cerr : std::cout)
-        << "\n  outcome     cancelled: cancelled by the user before the mission began: " << cancelled.what() << "\n";
-    if (common.json) print_json({{"outcome", name_of(MissionOutcome::cancelled)}, {"reason", cancelled.what()}});
-    return kExitNotSolved;
+    return report_cancelled(common, cancelled.what());
   }
 }
 

@@ -77,6 +77,36 @@ TEST(LiveObservationCheck, AnOdometryThatLeapsIsAFault) {
   EXPECT_NE(second_live(at(10.0, 0.0), at(10.0, 0.51)), "");
 }
 
+// At how many steps of 0.04 s the fault is found; 100: at none.
+int step_of_fault(double x_m_a_step, double turn_rad_a_step) {
+  RobotModel robot;
+  robot.max_v_mps = 0.5;
+  robot.max_w_radps = 1.0;
+  const auto clock = std::make_shared<TestClock>();
+  ObservationCheck check(robot, clock);
+  check.expect_live();
+  for (int step = 0; step < 100; ++step) {
+    Observation observation = at(10.0 + 0.04 * step, x_m_a_step * step);
+    observation.T_odom_robot.theta_rad = wrap_angle(turn_rad_a_step * step);
+    if (!check.fault_of(observation).empty()) return step;
+    clock->advance(std::chrono::milliseconds(40));
+  }
+  return 100;
+}
+
+TEST(LiveObservationCheck, AnOdometryThatGoesOnBeingTooFastIsAFaultToo) {
+  EXPECT_EQ(step_of_fault(0.45, 0.0), 2) << "11 m/s";
+  EXPECT_EQ(step_of_fault(0.0, 0.9), 2);
+  EXPECT_LT(step_of_fault(0.15, 0.0), 25) << "3.75 m/s";
+  EXPECT_EQ(step_of_fault(0.06, 0.12), 100) << "three times what the robot can do";
+}
+
+TEST(ObservationCheck, ACompassThatIsNoNumberIsAFault) {
+  Observation observation = at(10.0, 0.0);
+  observation.compass_rad = kNan;
+  EXPECT_EQ(ObservationCheck(RobotModel{}).fault_of(observation), "returned a compass heading that is not finite");
+}
+
 TEST(LiveObservationCheck, AnOdometryThatTurnsTooFastIsAFault) {
   Observation turned = at(10.04, 0.0);
   turned.T_odom_robot.theta_rad = 3.0;
@@ -99,6 +129,8 @@ TEST(Plausibility, APoseFarFromEveryMapIsAFault) {
   EXPECT_EQ(fault_of(pose), "");
   pose.T_map_robot.y_m = -2e5;
   EXPECT_EQ(fault_of(pose), "returned a pose 200000 m from the map's origin");
+  pose.T_map_robot.y_m = 7e3;
+  EXPECT_EQ(fault_of(pose, 6.5e3), "returned a pose 7000 m from the map's origin") << "where no grid has cells";
   pose = {};
   pose.covariance(2, 2) = kNan;
   EXPECT_EQ(fault_of(pose), "returned a pose that is not finite");
@@ -116,6 +148,38 @@ TEST(Plausibility, ADetectionOutsideOfTheMapIsAFault) {
   EXPECT_EQ(fault_of(matching, grid), "returned a detection at (3000, 4.5), which is outside of the map");
   matching.detection->T_map_landmark.x_m = kNan;
   EXPECT_EQ(fault_of(matching, grid), "returned a detection that is not finite");
+  matching.detection = Detection{"square", {5.5, 4.5, 0.0}, 0.9, {{"square", 0.0, 0.9}, {"square", kNan, 0.8}}};
+  EXPECT_EQ(fault_of(matching, grid), "returned a detection that is not finite") << "of any template";
+  matching.detection.reset();
+  matching.templates = {{"square", 0.0, kNan}};
+  EXPECT_EQ(fault_of(matching, grid), "returned a detection that is not finite");
+}
+
+TEST(Plausibility, AMarkerFartherThanAnyCameraSeesIsAFault) {
+  MarkerSighting sighting;
+  sighting.pose.covariance.setIdentity();
+  sighting.pose.T_robot_marker = {20.0, 0.0, 0.0};
+  EXPECT_EQ(fault_of(sighting), "");
+  sighting.mirrored = sighting.pose;
+  sighting.mirrored->T_robot_marker.x_m = 5000.0;
+  EXPECT_EQ(fault_of(sighting), "returned a marker 5000 m away");
+}
+
+TEST(Plausibility, APathThatIsNoneIsAFault) {
+  PlanResult plan;
+  plan.path = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  plan.cost_m = plan.length_m = 1.0;
+  EXPECT_EQ(fault_of(plan), "");
+  plan.path.back().theta_rad = kNan;
+  EXPECT_EQ(fault_of(plan), "returned a path that is not finite");
+  plan.path.clear();
+  plan.cost_m = -1.0;
+  EXPECT_EQ(fault_of(plan), "returned a path of less than no length or cost");
+}
+
+TEST(Plausibility, ATrueRobotIsSomewhere) {
+  EXPECT_EQ(fault_of(GroundTruth{}), "");
+  EXPECT_EQ(fault_of(GroundTruth{{0.0, kNan, 0.0}}), "returned a true place that is not finite");
 }
 
 TEST(Plausibility, ALoopThatCannotBeIsAFault) {

@@ -19,15 +19,21 @@ class FatalEnds : public testing::Test {
   FatalEnds() { std::filesystem::create_directories(folder_); }
   ~FatalEnds() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] Finished run(const std::string& step) const {
+  void write_mission(const std::string& step, const std::string& localizer) const {
     std::ofstream(folder_ / "mission.yaml") << "mission: fatal\nrobot: " << CAIRN_SOURCE_DIR
                                             << "/config/robots/pioneer1.yaml\n"
                                                "sensor: {plugin: counting_sensor, readings: 1000}\n"
-                                               "localizer: {plugin: still_localizer}\nmap: {plugin: empty_map}\n"
-                                               "steps: ["
-                                            << step << "]\n";
-    return run_cairn({"run", (folder_ / "mission.yaml").string(), "--plugins",
-                      std::string(CAIRN_BINARY_DIR) + "/tests/plugin/faulty", "--out", folder_.string(), "--json"});
+                                               "map: {plugin: empty_map}\nwatchdog_s: 1\nlocalizer: {plugin: "
+                                            << localizer << "}\nsteps: [" << step << "]\n";
+  }
+  [[nodiscard]] Finished run(const std::string& step, const std::string& localizer = "still_localizer",
+                             const std::vector<std::string>& command = {"run"}) const {
+    write_mission(step, localizer);
+    std::vector<std::string> words = command;
+    words.insert(words.end(), {(folder_ / "mission.yaml").string(), "--plugins",
+                               std::string(CAIRN_BINARY_DIR) + "/tests/plugin/faulty", "--json"});
+    if (command.front() == "run") words.insert(words.end(), {"--out", folder_.string()});
+    return run_cairn(words);
   }
 
   const std::filesystem::path folder_ =
@@ -55,6 +61,38 @@ TEST_F(FatalEnds, AnExceptionThatNobodyCatchesDoesToo) {
                 "the robot was stopped\n"));
 }
 
+TEST_F(FatalEnds, ASignalThatNobodyHandlesDoesToo) {
+  const Finished finished = run("alarm");
+  EXPECT_NE(finished.exit_status, 0);
+  EXPECT_THAT(finished.err, HasSubstr("cairn: SIGALRM while the mission was in stage behaviour of module alarm; the "
+                                      "robot was stopped\n"));
+}
+
+TEST_F(FatalEnds, AModuleThatCallsExitWhileItIsMadeEndsNoCommandWithSuccess) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"run"}, {"mission", "check"}}) {
+    const Finished finished = run("endless", "exiting_constructor", command);
+    EXPECT_EQ(finished.exit_status, 1) << command.front();
+    EXPECT_THAT(finished.err, HasSubstr("cairn: exit() was called while module exiting_constructor was being made\n"));
+  }
+}
+
+TEST_F(FatalEnds, AModuleThatIsNeverMadeIsGivenUp) {
+  const Finished finished = run("endless", "hanging_constructor");
+  EXPECT_EQ(finished.exit_status, 2);
+  EXPECT_THAT(finished.err,
+              HasSubstr("cairn: module hanging_constructor has not been made within 1 s and was given up\n"));
+}
+
+TEST_F(FatalEnds, AModuleThatIsNeverMadeDoesNotKeepTheUserFromEndingTheProgram) {
+  write_mission("endless", "hanging_constructor");
+  const Finished finished = cairn::testing_program::interrupt_cairn(
+      {"run", (folder_ / "mission.yaml").string(), "--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/faulty",
+       "--out", folder_.string(), "--set", "watchdog_s=0"});
+  EXPECT_EQ(finished.exit_status, 1);
+  EXPECT_THAT(finished.out, HasSubstr("cancelled by the user before the mission began: module hanging_constructor was "
+                                      "still being made"));
+}
+
 TEST_F(FatalEnds, AModuleThatCallsExitInAThreadOfItsOwnEndsTheMissionAsAFaultToo) {
   const Finished finished = run("exit_elsewhere");
   EXPECT_EQ(finished.exit_status, 1);
@@ -67,12 +105,15 @@ TEST_F(FatalEnds, AModuleThatCallsExitInAThreadOfItsOwnEndsTheMissionAsAFaultToo
 }
 
 TEST_F(FatalEnds, AModuleThatCallsExitEndsTheMissionAsAFaultAndTheMapIsSaved) {
-  const Finished finished = run("exit_well");
-  EXPECT_EQ(finished.exit_status, 1);
-  const auto summary = nlohmann::json::parse(finished.out);
-  EXPECT_EQ(summary.at("outcome"), "module_fault");
-  EXPECT_EQ(summary.at("reason"), "module exit_well called exit() in stage behaviour");
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "fatal.cairn"));
+  for (const std::string step : {"exit_well", "exit_quickly"}) {
+    const Finished finished = run(step);
+    EXPECT_EQ(finished.exit_status, 1);
+    const auto summary = nlohmann::json::parse(finished.out);
+    EXPECT_EQ(summary.at("outcome"), "module_fault");
+    EXPECT_EQ(summary.at("reason"), "module " + step + " called exit() in stage behaviour");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "fatal.cairn"));
+    std::filesystem::remove(folder_ / "fatal.cairn");
+  }
 }
 
 }  // namespace

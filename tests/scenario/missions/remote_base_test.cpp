@@ -82,15 +82,15 @@ class RemoteBase : public testing::Test {
   std::optional<Background> mission_;
 };
 
-TEST_F(RemoteBase, TheWheelsStandWithinTheDrivesOwnTimeWhenTheProgramIsKilled) {
+TEST_F(RemoteBase, TheWheelsStandWhenTheProgramIsKilled) {
   start_both();
   const double killed_s = monotonic_s();
   mission_->send(SIGKILL);
   EXPECT_EQ(mission_->exit_status(), -SIGKILL);
   ASSERT_TRUE(wait_until_standing(log_, killed_s));
   const Stopped stopped = stopped_after(killed_s);
-  EXPECT_LE(stopped.ordered_s, kCommandValid_s + 2 * kTick_s + 1e-6);
-  EXPECT_LE(stopped.turned_s, kCommandValid_s + kBraking_s + 3 * kTick_s + 1e-6);
+  EXPECT_LE(stopped.ordered_s, 4 * kTick_s + 1e-6) << "a client that is gone orders nothing more";
+  EXPECT_LE(stopped.turned_s, kBraking_s + 5 * kTick_s + 1e-6);
 
   start_mission();
   EXPECT_TRUE(wait_until_driving(log_, monotonic_s())) << "the base waits for the next: " << mission_->output();

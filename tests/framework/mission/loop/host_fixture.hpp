@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,10 +27,12 @@ class StraightPlanner : public Planner {
       result.path = {*request.from.pose, *request.to.pose};
       result.length_m = (request.from.pose->position() - request.to.pose->position()).norm();
     }
+    if (returns_nan && !result.path.empty()) result.path.back().theta_rad = std::numeric_limits<double>::quiet_NaN();
     return result;
   }
   mutable int asked = 0;
   mutable bool knew_hierarchies = false;
+  bool returns_nan = false;
 };
 
 class RecordingDrive : public Drive {

@@ -38,6 +38,18 @@ TEST_F(PlanningTest, JoinsLandmarksByRoutesWhileTheRobotStands) {
   EXPECT_FALSE(tracker_.graph().routes().empty());
 }
 
+TEST_F(PlanningTest, APathThatIsNotFiniteIsAFaultOfThePlanner) {
+  attach_drive();
+  planner_->returns_nan = true;
+  const auto is_named = testing::ThrowsMessage<ModuleFault>(
+      testing::HasSubstr("module straight failed in stage route_planner: returned a path that is not finite"));
+  EXPECT_THAT([&] { planning().connect(tracker_, known_.view()); }, is_named);
+  PlanRequest request;
+  request.from.pose = Pose2{};
+  request.to.pose = Pose2{1.0, 0.0, 0.0};
+  EXPECT_THROW((void)planning().plan(request, world_.view()), ModuleFault);
+}
+
 TEST_F(PlanningTest, WithoutLandmarksOrWithoutAPlannerNothingIsAsked) {
   attach_drive();
   LandmarkTracker none{{}, mission_.robot, {}};

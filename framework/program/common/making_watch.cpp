@@ -1,0 +1,37 @@
+#include "framework/program/common/making_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "framework/modules/making.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::chrono::milliseconds kLookEvery(20);
+constexpr double kLongestAfterCancel_s = 2.0;
+
+}  // namespace
+
+MakingWatch::MakingWatch(const Limits& limits, End end)
+    : limits_(limits), end_(std::move(end)), thread_([this](const std::stop_token& ended) { watch(ended); }) {}
+
+void MakingWatch::watch(const std::stop_token& ended) const {
+  std::optional<std::chrono::steady_clock::time_point> cancelled;
+  for (; !ended.stop_requested(); std::this_thread::sleep_for(kLookEvery)) {
+    const auto now = std::chrono::steady_clock::now();
+    if (limits_.is_cancelled && !cancelled) cancelled = now;
+    const auto making = module_being_made();
+    if (!making) continue;
+    if (cancelled && std::chrono::duration<double>(now - *cancelled).count() > kLongestAfterCancel_s)
+      end_(fmt::format("module {} was still being made", making->module), true);
+    if (limits_.longest_s > 0.0 && !making->may_take_long && making->for_s > limits_.longest_s)
+      end_(fmt::format("module {} has not been made within {:g} s and was given up", making->module, limits_.longest_s),
+           false);
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,31 @@
+// Ends the program when a module's making does not come back: no mission watches over that yet.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+namespace cairn {
+
+class MakingWatch {
+ public:
+  struct Limits {
+    double longest_s = 0.0;                 // of a module that is to be made at once; 0: none
+    const std::atomic<bool>& is_cancelled;  // by the user: whatever is being made gets 2 s more
+  };
+  // sentence: for people. It is called by another thread, and must not return: std::_Exit().
+  using End = std::function<void(const std::string& sentence, bool is_cancelled)>;
+
+  // As long as it lives.
+  MakingWatch(const Limits& limits, End end);
+
+ private:
+  void watch(const std::stop_token& ended) const;
+
+  Limits limits_;
+  End end_;
+  std::jthread thread_;  // last: it uses all of the above
+};
+
+}  // namespace cairn
