@@ -1,5 +1,6 @@
 #include "maps/store/value_check.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -24,7 +25,8 @@ constexpr double kMaxImported_m = 1e9;  // in a map without cells, whose places 
 constexpr double kMaxAngle_rad = 1e6;   // graph files may count turns
 constexpr double kMaxTime_s = 1e9;
 constexpr double kMaxSpeed_mps = 1e3;
-constexpr double kMaxSize_m = 1e3;  // of a shape
+constexpr double kMaxSize_m = 1e3;        // of a shape
+constexpr double kMaxInformation = 1e15;  // of 1 / m2 and 1 / rad2: far better than anything measures
 constexpr double kAnyFinite = std::numeric_limits<double>::max();
 constexpr auto kMaxIdValue = static_cast<double>(kMaxId);
 constexpr double kMaxCount = 2147483647.0;
@@ -87,9 +89,12 @@ constexpr std::array kRanges{
     ColumnRange{"submap_edges", "x_m", -kMaxPlace_m, kMaxPlace_m},
     ColumnRange{"submap_edges", "y_m", -kMaxPlace_m, kMaxPlace_m},
     ColumnRange{"submap_edges", "theta_rad", -kMaxAngle_rad, kMaxAngle_rad},
-    ColumnRange{"submap_edges", "xx", 0.0, kAnyFinite},
-    ColumnRange{"submap_edges", "yy", 0.0, kAnyFinite},
-    ColumnRange{"submap_edges", "tt", 0.0, kAnyFinite},
+    ColumnRange{"submap_edges", "xx", 0.0, kMaxInformation},
+    ColumnRange{"submap_edges", "yy", 0.0, kMaxInformation},
+    ColumnRange{"submap_edges", "tt", 0.0, kMaxInformation},
+    ColumnRange{"submap_edges", "xy", -kMaxInformation, kMaxInformation},
+    ColumnRange{"submap_edges", "xt", -kMaxInformation, kMaxInformation},
+    ColumnRange{"submap_edges", "yt", -kMaxInformation, kMaxInformation},
 };
 
 // Of landmarks, retired_landmarks and candidates.
@@ -116,6 +121,17 @@ constexpr std::array kEvidenceRanges{
     ColumnRange{"", "landmark", 1.0, kMaxIdValue}, ColumnRange{"", "matchings", 0.0, kMaxCount},
     ColumnRange{"", "mean_degree", 0.0, 1.0},      ColumnRange{"", "best_degree", 0.0, 1.0},
     ColumnRange{"", "last_degree", 0.0, 1.0},
+};
+
+// Numbers that are kept as text.
+struct PropertyRange {
+  const char* key;
+  double min;
+  double max;
+};
+constexpr std::array kProperties{
+    PropertyRange{"paused_s", 0.0, kMaxTime_s},  // no part of the mission's clock
+    PropertyRange{"robot_radius_m", 0.0, 10.0},
 };
 
 struct NameColumn {
@@ -146,7 +162,8 @@ class ValueCheck {
     for (const NameColumn& name : kNames) attempt([&] { check_names(name); });
     attempt([&] { check_trajectories(); });
     attempt([&] { check_shapes(); });
-    attempt([&] { check_times(); });
+    for (const PropertyRange& range : kProperties) attempt([&] { check_property(range); });
+    attempt([&] { check_edges(); });
     return std::move(findings_);
   }
 
@@ -249,15 +266,32 @@ class ValueCheck {
     }
   }
 
-  // The time of pauses is not part of the mission's clock.
-  void check_times() {
-    Statement row(database_, "SELECT key, value FROM meta WHERE key = 'paused_s'");
+  void check_property(const PropertyRange& range) {
+    Statement row(database_, "SELECT value FROM meta WHERE key = ?");
+    row.bind_text(range.key);
     while (row.step()) {
-      const std::string value = row.text(1);
-      double paused_s = -1.0;
-      const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), paused_s);
-      if (error != std::errc{} || !(paused_s >= 0.0 && paused_s <= kMaxTime_s))
-        add("meta", "paused_s", "value", "holds " + in_quotes(value) + ", allowed is " + text_of(0.0, kMaxTime_s));
+      const std::string text = row.text(0);
+      double value = std::numeric_limits<double>::quiet_NaN();
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error != std::errc{} || !(value >= range.min && value <= range.max))
+        add("meta", range.key, "value", "holds " + in_quotes(text) + ", allowed is " + text_of(range.min, range.max));
+    }
+  }
+
+  // Within their ranges, three numbers beside the diagonal may still be those of no information.
+  void check_edges() {
+    Statement row(database_, "SELECT number, xx, xy, xt, yy, yt, tt FROM submap_edges ORDER BY number");
+    while (row.step()) {
+      const auto at = [&row](int column) { return row.real(column); };
+      Eigen::Matrix3d information;
+      information << at(1), at(2), at(3), at(2), at(4), at(5), at(3), at(5), at(6);
+      const double largest = information.diagonal().maxCoeff();
+      if (!information.allFinite() || !(largest > 0.0 && largest <= kMaxInformation)) continue;  // said already
+      const Eigen::Matrix3d scaled = information / largest;
+      constexpr double kRounding = -1e-9;
+      if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() <
+          kRounding)
+        add("submap_edges", row.first_text(), "xy", "is with xt and yt no information: it is not positive definite");
     }
   }
 

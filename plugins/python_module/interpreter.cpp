@@ -1,10 +1,12 @@
 #include "plugins/python_module/interpreter.hpp"
 
 #include <dlfcn.h>
+#include <pybind11/eval.h>
 #include <pybind11/pybind11.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -24,17 +26,6 @@ void check(const PyStatus& status) {
   if (PyStatus_Exception(status) != 0)
     throw std::runtime_error(std::string("Python cannot be started: ") +
                              (status.err_msg != nullptr ? status.err_msg : "it gives no reason"));
-}
-
-// Of the virtual environment that is active, if its version of Python is ours; otherwise the system's.
-std::string python_program() {
-  const std::string version = "python" + std::to_string(PY_MAJOR_VERSION) + "." + std::to_string(PY_MINOR_VERSION);
-  if (const char* environment = std::getenv("VIRTUAL_ENV")) {
-    const std::filesystem::path folder = environment;
-    std::error_code error;
-    if (std::filesystem::is_directory(folder / "lib" / version, error)) return (folder / "bin" / "python3").string();
-  }
-  return CAIRN_PYTHON;
 }
 
 void preinitialize() {
@@ -72,7 +63,33 @@ class Configuration {
   PyConfig config_{};
 };
 
+// The standard output is the program's: reports and JSON. Its standard error goes through a filter, which Python would
+// write past.
+void print_by_program() {
+  pybind11::dict names;
+  names["write"] = pybind11::cpp_function([](const std::string& text) { std::cerr << text << std::flush; });
+  pybind11::exec(R"(
+import io, sys
+class Printed(io.TextIOBase):
+    def write(self, text, write=write):
+        write(text)
+        return len(text)
+sys.stdout = sys.stderr = Printed()
+)",
+                 names);
+}
+
 }  // namespace
+
+std::string python_program() {
+  const std::string version = "python" + std::to_string(PY_MAJOR_VERSION) + "." + std::to_string(PY_MINOR_VERSION);
+  if (const char* environment = std::getenv("VIRTUAL_ENV")) {
+    const std::filesystem::path folder = environment;
+    std::error_code error;
+    if (std::filesystem::is_directory(folder / "lib" / version, error)) return (folder / "bin" / "python3").string();
+  }
+  return CAIRN_PYTHON;
+}
 
 void start_interpreter() {
   static std::once_flag once;
@@ -81,8 +98,7 @@ void start_interpreter() {
     if (Py_IsInitialized() != 0) return;
     preinitialize();
     Configuration().start();
-    // The standard output is the program's: reports and JSON.
-    PySys_SetObject("stdout", PySys_GetObject("stderr"));
+    print_by_program();
     pybind11::detail::get_internals();  // by a thread whose state lasts
     static_cast<void>(PyEval_SaveThread());
   });

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "plugins/python_module/class_check.hpp"
+#include "plugins/python_module/import_trial.hpp"
 #include "plugins/python_module/interpreter.hpp"
 #include "plugins/python_module/values.hpp"
 #include "plugins/python_module/views.hpp"
@@ -51,6 +52,7 @@ std::string file_of(const Config& config) {
 PythonObject::PythonObject(const Config& config, const ModuleContext& context, const AddToContext& add_to_context,
                            std::initializer_list<const char*> methods)
     : file_(file_of(config)), module_name_(new_module_name(file_)), seed_(context.seed) {
+  try_import(file_, config.file.place);
   start_interpreter();
   const py::gil_scoped_acquire lock;
   try {

@@ -57,7 +57,7 @@ std::optional<Rank> rank_of_launcher() {
 RankedRuns::RankedRuns(const std::filesystem::path& out, const Rank& rank)
     : rank_(rank), folder_(out / (".ranks_" + rank.job)) {
   std::filesystem::create_directories(folder_ / "taken");
-  lock_ = ::open(alive(rank.number).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  lock_ = ::open(alive(rank.number).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (lock_ < 0 || !lock_whole(lock_)) {
     const int error = errno;
     if (lock_ >= 0) ::close(lock_);

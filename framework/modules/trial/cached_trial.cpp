@@ -72,13 +72,6 @@ std::optional<TrialOutcome> read_entry(const CacheEntry& entry) {
   return all.ends_with(fingerprint_of(text)) ? outcome_from(text.substr(begin.size())) : std::nullopt;
 }
 
-std::chrono::milliseconds trial_limit() {
-  const char* const chosen = std::getenv("CAIRN_MODULE_TRIAL_S");
-  const auto limit_s = number_from<double>(chosen == nullptr ? "" : chosen);
-  if (!limit_s || !(*limit_s >= 0.1 && *limit_s <= 3600.0)) return kModuleTrialLimit;
-  return std::chrono::milliseconds(std::llround(1e3 * *limit_s));
-}
-
 }  // namespace
 
 TrialOutcome CachedTrial::outcome_of(const std::filesystem::path& file) const {

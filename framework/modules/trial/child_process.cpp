@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -23,6 +24,11 @@ constexpr std::size_t kMaxReported = std::size_t{1} << 20U;
 
 [[noreturn]] void fail(const char* what, int error) {
   throw std::system_error(error, std::generic_category(), what);
+}
+
+std::string name_of_signal(int signal) {
+  const char* const name = ::sigabbrev_np(signal);
+  return name == nullptr ? "signal " + std::to_string(signal) : std::string("SIG") + name;
 }
 
 // One end of a pipe.
@@ -154,6 +160,14 @@ ChildEnd run_child(const std::vector<std::string>& arguments, std::chrono::milli
   if (WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   return end;
+}
+
+std::string end_text(const ChildEnd& end, std::chrono::milliseconds limit) {
+  if (end.has_timed_out && limit.count() % 1000 == 0)
+    return "did not finish within " + std::to_string(limit.count() / 1000) + " s";
+  if (end.has_timed_out) return "did not finish within " + std::to_string(limit.count()) + " ms";
+  if (end.signal != 0) return "crashed (" + name_of_signal(end.signal) + ")";
+  return "called exit(" + std::to_string(end.exit_status) + ")";
 }
 
 }  // namespace cairn

@@ -17,6 +17,9 @@ struct ChildEnd {
   std::string reported;  // all that it wrote to kReportFd, to a limit of 1 MiB
 };
 
+// How it ended, for people: "crashed (SIGSEGV)", "called exit(3)", "did not finish within 5 s".
+[[nodiscard]] std::string end_text(const ChildEnd& end, std::chrono::milliseconds limit);
+
 // Starts the program (arguments[0], a path) and waits until it has ended. It reads /dev/null, has no other open files
 // than these, all signals as usual, and a process group of its own; what is left of the group is killed at the time
 // limit or when the program ends. Throws std::system_error: it cannot be started.

@@ -4,8 +4,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
-#include <cstring>
+#include <cstdlib>
 #include <exception>
 #include <string_view>
 #include <system_error>
@@ -13,6 +14,7 @@
 #include "framework/modules/plugin_loader.hpp"
 #include "framework/modules/trial/child_process.hpp"
 #include "maps/base/printable.hpp"
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -28,19 +30,6 @@ void report(std::string_view text) {
     if (count <= 0) return;
     text.remove_prefix(static_cast<std::size_t>(count));
   }
-}
-
-std::string name_of_signal(int signal) {
-  const char* const name = ::sigabbrev_np(signal);
-  return name == nullptr ? "signal " + std::to_string(signal) : std::string("SIG") + name;
-}
-
-std::string end_text(const ChildEnd& end, std::chrono::milliseconds limit) {
-  if (end.has_timed_out && limit.count() % 1000 == 0)
-    return "did not finish within " + std::to_string(limit.count() / 1000) + " s";
-  if (end.has_timed_out) return "did not finish within " + std::to_string(limit.count()) + " ms";
-  if (end.signal != 0) return "crashed (" + name_of_signal(end.signal) + ")";
-  return "called exit(" + std::to_string(end.exit_status) + ")";
 }
 
 TrialOutcome outcome_of_end(const ChildEnd& end, std::chrono::milliseconds limit) {
@@ -61,6 +50,13 @@ TrialOutcome outcome_of_end(const ChildEnd& end, std::chrono::milliseconds limit
 }
 
 }  // namespace
+
+std::chrono::milliseconds trial_limit(std::chrono::milliseconds usual) {
+  const char* const chosen = std::getenv("CAIRN_MODULE_TRIAL_S");
+  const auto limit_s = number_from<double>(chosen == nullptr ? "" : chosen);
+  if (!limit_s || !(*limit_s >= 0.1 && *limit_s <= 3600.0)) return usual;
+  return std::chrono::milliseconds(std::llround(1e3 * *limit_s));
+}
 
 TrialOutcome ChildTrial::outcome_of(const std::filesystem::path& file) const {
   try {

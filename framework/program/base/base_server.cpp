@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <iostream>
 #include <stdexcept>
 
 #include "framework/live/wire.hpp"
@@ -25,9 +26,13 @@ constexpr double kNotSteppedYet_s = 0.04;  // until the second tick shows the pe
 BaseServer::BaseServer(live::ServedRobot& robot, const live::Address& address, const BaseOptions& options)
     : robot_(robot), address_(address), pace_(options.pace), listening_(live::listen_at(address)) {
   if (options.log.empty()) return;
-  log_.open(options.log);
-  log_ << "monotonic_s,stamp_s,ordered_v_mps,ordered_w_radps,driven_v_mps,driven_w_radps\n" << std::flush;
-  if (!log_) throw std::runtime_error(options.log.string() + ": cannot be written");
+  try {
+    log_ = std::make_unique<GrowingFile>(options.log);
+    log_->append("monotonic_s,stamp_s,ordered_v_mps,ordered_w_radps,driven_v_mps,driven_w_radps\n");
+    log_->flush();
+  } catch (const OutputError& error) {
+    throw std::runtime_error(options.log.string() + ": " + error.what());
+  }
 }
 
 BaseServer::~BaseServer() {
@@ -93,7 +98,7 @@ void BaseServer::tick() {
   const live::ServedRobot::Tick tick = robot_.tick();
   if (client_.get() >= 0 && !writer_.write(client_.get(), tick.line)) lose_client();
   if (!tick.fault.empty()) throw std::runtime_error(tick.fault);
-  if (log_.is_open()) write_log(tick);
+  if (log_ != nullptr) write_log(tick);
   schedule(tick.stamp_s);
 }
 
@@ -105,14 +110,19 @@ void BaseServer::schedule(double stamp_s) {
   if (const auto now = Clock::now(); now - due_ > kMaxBehind) due_ = now;
 }
 
+// A log that cannot be written is left; the robot is not.
 void BaseServer::write_log(const live::ServedRobot::Tick& tick) {
   const double now_s = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-  log_ << fmt::format("{:.4f},{:.4f},{:.4f},{:.4f}", now_s, tick.stamp_s, tick.ordered.v_mps, tick.ordered.w_radps);
-  if (tick.driven)
-    log_ << fmt::format(",{:.4f},{:.4f}\n", tick.driven->v_mps, tick.driven->w_radps);
-  else
-    log_ << ",,\n";
-  log_ << std::flush;
+  std::string line =
+      fmt::format("{:.4f},{:.4f},{:.4f},{:.4f}", now_s, tick.stamp_s, tick.ordered.v_mps, tick.ordered.w_radps);
+  line += tick.driven ? fmt::format(",{:.4f},{:.4f}\n", tick.driven->v_mps, tick.driven->w_radps) : ",,\n";
+  try {
+    log_->append(line);
+    log_->flush();
+  } catch (const OutputError& error) {
+    std::cerr << "the log of the base ends here: " << error.what() << "\n";
+    log_.reset();
+  }
 }
 
 }  // namespace cairn

@@ -4,12 +4,13 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "framework/live/line_socket.hpp"
 #include "framework/live/served_robot.hpp"
+#include "maps/base/output_file.hpp"
 
 namespace cairn {
 
@@ -44,7 +45,7 @@ class BaseServer {
   live::Address address_;
   double pace_;
   Descriptor listening_;
-  std::ofstream log_;
+  std::unique_ptr<GrowingFile> log_;  // null: none
   Descriptor client_;
   live::LineReader reader_;
   live::LineWriter writer_;

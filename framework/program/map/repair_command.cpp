@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 
+#include "framework/planning/clusters_config.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/print.hpp"
 #include "maps/base/text.hpp"
@@ -40,16 +44,26 @@ ordered_json json_of_kept(const SavedMap& map) {
           {"explored_ratio", known_ratio(map.grid)}};
 }
 
-// What load_map says against it; empty when it is sound. unproven: what an earlier repair has kept unproven.
-std::string fault_of(const std::filesystem::path& file, std::string* unproven = nullptr) {
+using Properties = std::map<std::string, std::string>;
+
+// What load_map says against it; empty when it is sound. properties: of the map, when it loads.
+std::string fault_of(const std::filesystem::path& file, Properties* properties = nullptr) {
   try {
-    const SavedMap map = load_map(file);
-    const auto kept = map.properties.find(kUnprovenTables);
-    if (unproven != nullptr && kept != map.properties.end()) *unproven = kept->second;
+    SavedMap map = load_map(file);
+    if (properties != nullptr) *properties = std::move(map.properties);
   } catch (const StoreError& error) {
     return error.what();
   }
   return {};
+}
+
+// As they are read by whoever plans on the map.
+void check_cluster_settings(const Properties& properties, std::vector<ValueFinding>& findings) {
+  try {
+    static_cast<void>(cluster_sizes_of(properties));
+  } catch (const ConfigError& error) {
+    findings.push_back({"meta", kClustersProperty, "value", "cannot be used: " + error.sentence()});
+  }
 }
 
 struct MapVerdict {
@@ -102,10 +116,13 @@ void print_faults(const MapVerdict& verdict, const std::filesystem::path& file) 
 
 int map_check(const MapCommand& command, const CommonOptions& common) {
   MapVerdict verdict;
-  verdict.fault = fault_of(command.map, &verdict.unproven);
+  Properties properties;
+  verdict.fault = fault_of(command.map, &properties);
+  if (const auto kept = properties.find(kUnprovenTables); kept != properties.end()) verdict.unproven = kept->second;
   try {
     if (!verdict.fault.empty()) verdict.losses = salvage_map(command.map).losses;
     verdict.findings = check_values(command.map);
+    check_cluster_settings(properties, verdict.findings);
   } catch (const StoreError& error) {  // no saved map at all, or nothing left of one
     if (common.json)
       print_json({{"file", command.map.string()}, {"outcome", "not_readable"}, {"reason", error.what()}});
@@ -131,7 +148,8 @@ int map_repair(const MapCommand& command, const CommonOptions& common) {
   const SalvagedMap salvaged = salvage_map(command.map);
   const bool is_sound = fault_of(command.map).empty();  // damage may have hit what holds nothing
   save_map(command.repaired, salvaged.map, Links::replace);
-  const std::vector<ValueFinding> findings = check_values(command.repaired);  // what loads may still be untrue
+  std::vector<ValueFinding> findings = check_values(command.repaired);  // what loads may still be untrue
+  check_cluster_settings(salvaged.map.properties, findings);
   std::ostream& people = common.json ? std::cerr : std::cout;
   for (const StoreLoss& loss : salvaged.losses) people << "  " << text_of(loss) << "\n";
   people << fmt::format("{}: {}; {}, {}, {:.1f} % known within its outermost walls\n", command.repaired.string(),

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "framework/config/config_value.hpp"
 #include "tests/plugins/python_module/python_file.hpp"
 
@@ -64,6 +66,17 @@ TEST(MakingAPythonModule, ASettingThatIsMissingIsNamed) {
 TEST(MakingAPythonModule, WhatTheFileRaisesHasItsLineAndTrace) {
   const std::string error = error_of_making("import math\n\nmath.sqrt(-1)\n");
   EXPECT_THAT(error, MatchesRegex("[^\n]*it_[0-9]+\\.py:3:[0-9]+: ValueError: math domain error\nTraceback.*"));
+}
+
+TEST(MakingAPythonModule, WhatEndsTheProcessAsItIsImportedEndsAnotherProcess) {
+  EXPECT_THAT(error_of_making("import os\nos._exit(0)\n"),
+              MatchesRegex("mission.yaml:1:7: [^\n]*it_[0-9]+\\.py: called exit\\(0\\) while it was imported"));
+  EXPECT_THAT(error_of_making("import ctypes\nctypes.string_at(0)\n"),
+              HasSubstr(".py: crashed (SIGSEGV) while it was imported"));
+  ::setenv("CAIRN_MODULE_TRIAL_S", "0.5", 1);
+  EXPECT_THAT(error_of_making("while True: pass\n"),
+              HasSubstr(".py: did not finish within 500 ms while it was imported"));
+  ::unsetenv("CAIRN_MODULE_TRIAL_S");
 }
 
 TEST(MakingAPythonModule, ASyntaxErrorHasItsLineAndColumn) {

@@ -125,11 +125,11 @@ TEST(PythonMission, CtrlCEndsTheMissionNotTheModule) {
 
 TEST(PythonMission, WhatAModulePrintsLeavesTheReportAlone) {
   const auto folder = fresh_folder("python_print");
-  const auto mission = mission_with_step(folder, step("    print('ping')\n    return 'success', 'done'\n"));
+  const auto mission = mission_with_step(folder, step("    print('ping\\x1b[32m')\n    return 'success', 'done'\n"));
   const Finished run = run_of(mission, folder / "out");
   EXPECT_EQ(run.exit_status, 0) << run.err;
   EXPECT_TRUE(json::accept(run.out)) << run.out;
-  EXPECT_THAT(run.err, HasSubstr("ping"));
+  EXPECT_THAT(run.err, HasSubstr("ping\\x1b[32m\n")) << "and steers no terminal";
 }
 
 TEST(PythonMission, AMistakeIsFoundBeforeTheMissionBegins) {

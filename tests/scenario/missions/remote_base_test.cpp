@@ -96,6 +96,16 @@ TEST_F(RemoteBase, TheWheelsStandWhenTheProgramIsKilled) {
   EXPECT_TRUE(wait_until_driving(log_, monotonic_s())) << "the base waits for the next: " << mission_->output();
 }
 
+TEST_F(RemoteBase, ALinkInPlaceOfTheLogIsReplacedAndNotFollowed) {
+  write_text(folder_ / "victim.txt", "mine");
+  fs::create_symlink(folder_ / "victim.txt", log_);
+  start_base();
+  start_mission();
+  ASSERT_TRUE(wait_until_driving(log_));
+  EXPECT_FALSE(fs::is_symlink(log_));
+  EXPECT_EQ(text_of_file(folder_ / "victim.txt"), "mine");
+}
+
 TEST_F(RemoteBase, AStoppedProgramGoesOnByItselfAndSaysWhatHappened) {
   start_both();
   const double stopped_s = monotonic_s();
