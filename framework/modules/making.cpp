@@ -1,66 +1,62 @@
 #include "framework/modules/making.hpp"
 
-#include <chrono>
 #include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 namespace cairn {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-struct Begun {
-  std::string module;
-  bool may_take_long = false;
-  Clock::time_point at;
-};
-
-struct AllMaking {
-  std::mutex mutex;
-  std::map<std::thread::id, std::vector<Begun>> of_thread;  // the innermost last
-};
-
-// Never destroyed: a module's thread may outlive main().
-AllMaking& all_making() {
-  static auto* const all = new AllMaking;
-  return *all;
-}
+thread_local const ModuleMaking* making_here = nullptr;  // the innermost
 
 }  // namespace
 
-ModuleMaking::ModuleMaking(std::string module, bool may_take_long) {
-  AllMaking& all = all_making();
-  const std::lock_guard lock(all.mutex);
-  all.of_thread[std::this_thread::get_id()].push_back({std::move(module), may_take_long, Clock::now()});
+struct MakingNow {
+  std::mutex mutex;
+  std::map<std::thread::id, const ModuleMaking*> of_thread;  // the innermost of each
+
+  // Never destroyed: a module's thread may outlive main().
+  static MakingNow& all() {
+    static auto* const now = new MakingNow;
+    return *now;
+  }
+  static const char* name_of(const ModuleMaking& making) { return making.module_.c_str(); }
+
+  std::optional<ModuleBeingMade> longest() {
+    const std::lock_guard lock(mutex);
+    const ModuleMaking* first = nullptr;
+    for (const auto& [thread, making] : of_thread)
+      if (first == nullptr || making->begin_ < first->begin_) first = making;
+    if (first == nullptr) return std::nullopt;
+    const double for_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - first->begin_).count();
+    return ModuleBeingMade{first->module_, for_s, first->may_take_long_};
+  }
+};
+
+ModuleMaking::ModuleMaking(std::string module, bool may_take_long)
+    : module_(std::move(module)), may_take_long_(may_take_long), outer_(making_here) {
+  MakingNow& now = MakingNow::all();
+  const std::lock_guard lock(now.mutex);
+  now.of_thread[std::this_thread::get_id()] = making_here = this;
 }
 
 ModuleMaking::~ModuleMaking() {
-  AllMaking& all = all_making();
-  const std::lock_guard lock(all.mutex);
-  const auto mine = all.of_thread.find(std::this_thread::get_id());
-  mine->second.pop_back();
-  if (mine->second.empty()) all.of_thread.erase(mine);
+  MakingNow& now = MakingNow::all();
+  const std::lock_guard lock(now.mutex);
+  making_here = outer_;
+  if (outer_ != nullptr)
+    now.of_thread[std::this_thread::get_id()] = outer_;
+  else
+    now.of_thread.erase(std::this_thread::get_id());
 }
 
 std::optional<ModuleBeingMade> module_being_made() {
-  AllMaking& all = all_making();
-  const std::lock_guard lock(all.mutex);
-  const Begun* earliest = nullptr;
-  for (const auto& [thread, begun] : all.of_thread)
-    if (earliest == nullptr || begun.back().at < earliest->at) earliest = &begun.back();
-  if (earliest == nullptr) return std::nullopt;
-  const double for_s = std::chrono::duration<double>(Clock::now() - earliest->at).count();
-  return ModuleBeingMade{earliest->module, for_s, earliest->may_take_long};
+  return MakingNow::all().longest();
 }
 
-std::optional<std::string> module_being_made_here() {
-  AllMaking& all = all_making();
-  const std::lock_guard lock(all.mutex);
-  const auto mine = all.of_thread.find(std::this_thread::get_id());
-  return mine == all.of_thread.end() ? std::nullopt : std::optional(mine->second.back().module);
+const char* module_being_made_here() noexcept {
+  return making_here == nullptr ? nullptr : MakingNow::name_of(*making_here);
 }
 
 }  // namespace cairn

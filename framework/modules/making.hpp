@@ -1,7 +1,8 @@
-// Which modules are being made, and since when. A constructor that hangs or calls exit() is in no mission's stage yet:
-// who watches the process learns here whose it is.
+// Which modules are being made, and since when. A constructor that hangs, crashes or calls exit() is in no mission's
+// stage yet: who watches the process learns here whose it is.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,14 @@ class ModuleMaking {
   ~ModuleMaking();
   ModuleMaking(const ModuleMaking&) = delete;
   ModuleMaking& operator=(const ModuleMaking&) = delete;
+
+ private:
+  friend struct MakingNow;
+
+  const std::string module_;
+  const bool may_take_long_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const ModuleMaking* const outer_;  // of the same thread
 };
 
 struct ModuleBeingMade {
@@ -25,7 +34,7 @@ struct ModuleBeingMade {
 
 // The innermost of the thread that has been at its one for longest; thread-safe.
 [[nodiscard]] std::optional<ModuleBeingMade> module_being_made();
-// Of this thread.
-[[nodiscard]] std::optional<std::string> module_being_made_here();
+// Of this thread; null: none. In a signal handler too.
+[[nodiscard]] const char* module_being_made_here() noexcept;
 
 }  // namespace cairn

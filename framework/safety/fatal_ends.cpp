@@ -8,8 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <optional>
-#include <string>
 
 #include "framework/modules/making.hpp"
 
@@ -93,6 +91,18 @@ struct FatalEndHandlers {
       if (FatalEnds* const mission = slot; mission != nullptr && mission->is_running_) report(*mission, what, place);
   }
 
+  // Whether a module is being made in this thread.
+  static bool report_making(const char* what) {
+    const char* const module = module_being_made_here();
+    if (module == nullptr) return false;
+    print("cairn: ");
+    print(what);
+    print(" while module ");
+    print(module);
+    print(" was being made\n");
+    return true;
+  }
+
   static void report(const FatalEnds& mission, const char* what, Place place) {
     bool is_sent = mission.monitor_.is_stop_sent();
     for (int i = 0; i < kMaxLooksForStop && !is_sent; ++i) {
@@ -116,6 +126,7 @@ struct FatalEndHandlers {
   static void on_signal(int signal, siginfo_t* info, void* context) {
     const bool is_sent_to_us = info->si_code == SI_USER || signal == SIGQUIT;
     stop_all(name_of_signal(signal), is_sent_to_us ? Place::outside : Place::this_thread);
+    if (!is_sent_to_us) (void)report_making(name_of_signal(signal));
     for (std::size_t i = 0; i < kFatalSignals.size(); ++i) {
       if (kFatalSignals[i] != signal) continue;
       if ((earlier[i].sa_flags & SA_SIGINFO) != 0) return earlier[i].sa_sigaction(signal, info, context);
@@ -158,11 +169,7 @@ struct FatalEndHandlers {
 
 // Not in a mission, and not in a signal handler.
 [[noreturn]] void FatalEndHandlers::end_early() {
-  const std::optional<std::string> module = module_being_made_here();
-  print("cairn: exit() was called");
-  if (module) print(" while module ");
-  if (module) print(module->c_str());
-  print(module ? " was being made\n" : " by a module or a library\n");
+  if (!report_making("exit() was called")) print("cairn: exit() was called by a module or a library\n");
   ::_exit(kExitOfFailure);
 }
 

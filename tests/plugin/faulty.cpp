@@ -257,6 +257,11 @@ std::unique_ptr<Localizer> exit_while_made() {
   std::exit(0);  // NOLINT: a fault of a module
 }
 
+std::unique_ptr<Localizer> crash_while_made() {
+  crash();
+  return nullptr;
+}
+
 std::unique_ptr<Localizer> hang_while_made() {
   for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
@@ -343,6 +348,7 @@ void register_module(Registrar& registrar) {
   add_ending<exit_quickly>(registrar, "exit_quickly");
   add_ending<alarm>(registrar, "alarm");
   add_unmakable<exit_while_made>(registrar, "exiting_constructor");
+  add_unmakable<crash_while_made>(registrar, "crashing_constructor");
   add_unmakable<hang_while_made>(registrar, "hanging_constructor");
   add_ending<overflow_the_stack>(registrar, "overflow");
   registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",

@@ -76,6 +76,12 @@ TEST_F(FatalEnds, AModuleThatCallsExitWhileItIsMadeEndsNoCommandWithSuccess) {
   }
 }
 
+TEST_F(FatalEnds, AModuleThatCrashesWhileItIsMadeIsNamed) {
+  const Finished finished = run("endless", "crashing_constructor");
+  EXPECT_NE(finished.exit_status, 0);
+  EXPECT_THAT(finished.err, HasSubstr("cairn: SIGSEGV while module crashing_constructor was being made\n"));
+}
+
 TEST_F(FatalEnds, AModuleThatIsNeverMadeIsGivenUp) {
   const Finished finished = run("endless", "hanging_constructor");
   EXPECT_EQ(finished.exit_status, 2);
