@@ -107,6 +107,21 @@ TEST_F(MapStore, ImpossibleValuesOfSubmapsAreFound) {
   EXPECT_EQ(findings[1].column, "tt");
 }
 
+TEST_F(MapStore, EdgesOfThePoseGraphHaveAnInformation) {
+  const auto findings_with = [&](const std::string& set) {
+    save_map(file(), map_with_submaps());
+    run_sql(file(), "UPDATE submap_edges SET " + set + " WHERE to_node = 2");
+    std::vector<std::string> all;
+    for (const ValueFinding& finding : check_values(file())) all.push_back(finding.column + " " + finding.what);
+    return all;
+  };
+  EXPECT_THAT(findings_with("xy = 10"), testing::IsEmpty());
+  EXPECT_THAT(findings_with("xx = 1e300"), testing::ElementsAre("xx holds 1.0e+300, allowed is 0 to 1e+15"));
+  EXPECT_THAT(findings_with("xt = -1e300"), testing::SizeIs(2));
+  EXPECT_THAT(findings_with("xy = 900"),
+              testing::ElementsAre("xy is with xt and yt no information: it is not positive definite"));
+}
+
 TEST(KeptSubmaps, OnlyTheLatestAreKept) {
   KeptSubmaps submaps;
   constexpr auto kAll = static_cast<std::int64_t>(KeptSubmaps::kMax + 10);

@@ -112,18 +112,6 @@ TEST_F(ValueCheck, ARobotHasARadius) {
                 ElementsAre("meta robot_radius_m value holds \"" + radius + "\", allowed is 0 to 10"));
 }
 
-TEST_F(ValueCheck, EdgesOfThePoseGraphHaveAnInformation) {
-  const auto with_edge = [&](const std::string& information) {
-    return findings_after("INSERT INTO submap_edges VALUES (99, 0, 1, 0, 0, 0, " + information + ", 0, 1)");
-  };
-  EXPECT_THAT(with_edge("400, 10, 0, 400, 0, 900"), IsEmpty());
-  EXPECT_THAT(with_edge("1e300, 0, 0, 400, 0, 900"),
-              ElementsAre("submap_edges 99 xx holds 1.0e+300, allowed is 0 to 1e+15"));
-  EXPECT_THAT(with_edge("400, 0, -1e300, 400, 0, 900"), testing::SizeIs(2));
-  EXPECT_THAT(with_edge("1, 2, 0, 1, 0, 1"),
-              ElementsAre("submap_edges 99 xy is with xt and yt no information: it is not positive definite"));
-}
-
 TEST_F(ValueCheck, NamesHoldNoControlCharacters) {
   EXPECT_THAT(findings_after("UPDATE landmarks SET name = 'a' || char(10) || 'b' WHERE id = 1"),
               ElementsAre("landmarks 1 name holds the control character \\x0a"));

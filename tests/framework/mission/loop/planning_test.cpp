@@ -42,7 +42,7 @@ TEST_F(PlanningTest, APathThatIsNotFiniteIsAFaultOfThePlanner) {
   attach_drive();
   planner_->returns_nan = true;
   const auto is_named = testing::ThrowsMessage<ModuleFault>(
-      testing::HasSubstr("module straight failed in stage route_planner: returned a path that is not finite"));
+      testing::HasSubstr("module straight failed in stage routes: returned a path that is not finite"));
   EXPECT_THAT([&] { planning().connect(tracker_, known_.view()); }, is_named);
   PlanRequest request;
   request.from.pose = Pose2{};
