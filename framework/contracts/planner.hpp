@@ -54,6 +54,7 @@ struct PathSegment {
 };
 [[nodiscard]] std::string_view name_of(PathSegment::Origin origin);
 
+// With a path, costs and lengths are finite and not negative.
 struct PlanResult {
   PlanOutcome outcome = PlanOutcome::no_route;
   std::string reason;  // a sentence for people

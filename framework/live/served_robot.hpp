@@ -18,7 +18,7 @@ class ServedRobot {
 
   // What a client says. A line that cannot be read stops the robot and is answered; empty: no answer.
   [[nodiscard]] std::string take(const std::string& line);
-  // Without a client, or when it makes no sense.
+  // When the client is gone, or says what cannot be read.
   void stop();
   // The client waits for an observation: for a base that has no time of its own. Asked once, forgotten then.
   [[nodiscard]] bool take_request();

@@ -174,7 +174,8 @@ void MissionConfig::describe(Fields<MissionConfig>& fields) {
                 "the mission ends then, whatever it is doing; the time of runs that this one continues counts");
   fields.number(
       "watchdog_s", &C::watchdog_s, {0.0, 1e6}, "s",
-      "a module whose call has not returned after this (wall clock) is given up and ends the mission; 0: never");
+      "a module whose call has not returned after this (wall clock) is given up and ends the mission, as one that has "
+      "not been made after this (10 s at least) does before it; 0: never");
   fields.file_name("record", &C::record,
                    "file in the output folder that gets all observations as a CARMEN log, to be played back by "
                    "carmen_log; packed by gzip where it ends in .gz. Empty: MISSION.log.gz, or MISSION.2.log.gz where "

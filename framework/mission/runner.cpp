@@ -13,25 +13,25 @@ namespace {
 
 using OnWait = std::function<void(const std::string&)>;
 
-// Tells people what the sensor waits for, in a thread of its own: neither the module that is asked nor a terminal that
-// takes nothing may hold up the thread that stops the wheels.
-class WaitTeller {
+// Reports to people what the sensor waits for, in a thread of its own: neither the module that is asked nor a terminal
+// that takes nothing may hold up the thread that stops the wheels.
+class WaitReporter {
  public:
-  // Without on_wait nothing is told.
-  WaitTeller(std::shared_ptr<const MissionLoop> loop, OnWait on_wait) {
+  // Without on_wait nothing is reported.
+  WaitReporter(std::shared_ptr<const MissionLoop> loop, OnWait on_wait) {
     if (!on_wait) return;
     thread_ = std::thread(
         [loop = std::move(loop), on_wait = std::move(on_wait), is_over = is_over_, done = std::move(done_)]() mutable {
-          tell(*loop, on_wait, *is_over);
+          report(*loop, on_wait, *is_over);
           done.set_value();
         });
   }
   // Whether the thread has ended; one that is stuck is left behind.
   [[nodiscard]] bool end() {
-    constexpr std::chrono::seconds kLongest(1);
+    constexpr std::chrono::seconds kMaxWait(1);
     if (!thread_.joinable()) return true;
     *is_over_ = true;
-    const bool has_ended = is_done_.wait_for(kLongest) == std::future_status::ready;
+    const bool has_ended = is_done_.wait_for(kMaxWait) == std::future_status::ready;
     if (has_ended)
       thread_.join();
     else
@@ -40,7 +40,7 @@ class WaitTeller {
   }
 
  private:
-  static void tell(const MissionLoop& loop, const OnWait& on_wait, const std::atomic<bool>& is_over) {
+  static void report(const MissionLoop& loop, const OnWait& on_wait, const std::atomic<bool>& is_over) {
     for (bool is_waiting = false; !is_over; std::this_thread::sleep_for(kControlPollInterval)) {
       const std::string sentence = loop.waits_for();
       if (!sentence.empty() && !is_waiting) on_wait(sentence);
@@ -116,7 +116,7 @@ void MissionRunner::watch() {
     loop->run();
     promise.set_value();
   });
-  WaitTeller teller(loop_, on_wait_);
+  WaitReporter reporter(loop_, on_wait_);
   const std::chrono::nanoseconds longest(std::llround(longest_call_s_ * 1e9));
   while (!wall_clock_->wait_for(done, kControlPollInterval) && !gave_up_) {
     loop_->stop_if_stalled();
@@ -126,7 +126,7 @@ void MissionRunner::watch() {
     thread.detach();
   else
     thread.join();
-  gave_up_ = !teller.end() || gave_up_ || loop_->exit_was_called_elsewhere();
+  gave_up_ = !reporter.end() || gave_up_ || loop_->exit_was_called_elsewhere();
 }
 
 RunStatus MissionRunner::status() const {

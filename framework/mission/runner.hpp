@@ -110,8 +110,8 @@ class MissionRunner {
   // monitor's stop_after_s, the wheels are stopped until one does; a module whose call does not return within the
   // mission's watchdog_s (0: never), or that calls exit(), ends the mission (outcome module_fault) and is left behind.
   MissionResult run();
-  // A module was left behind: its thread may still be in there, or in exit(), so the process should end without
-  // tearing anything down (std::_Exit).
+  // A thread was left behind: in a module's call, in exit(), or in on_wait of the options. So the process should end
+  // without tearing anything down (std::_Exit).
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
   // How it stands, and where it has driven: for listeners, while an event is published.

@@ -45,10 +45,12 @@ ModuleMaking::~ModuleMaking() {
   MakingNow& now = MakingNow::all();
   const std::lock_guard lock(now.mutex);
   making_here = outer_;
-  if (outer_ != nullptr)
-    now.of_thread[std::this_thread::get_id()] = outer_;
-  else
+  if (outer_ == nullptr) {
     now.of_thread.erase(std::this_thread::get_id());
+    return;
+  }
+  outer_->begin_ = std::chrono::steady_clock::now();
+  now.of_thread[std::this_thread::get_id()] = outer_;
 }
 
 std::optional<ModuleBeingMade> module_being_made() {

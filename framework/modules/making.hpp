@@ -22,13 +22,13 @@ class ModuleMaking {
 
   const std::string module_;
   const bool may_take_long_;
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  mutable std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   const ModuleMaking* const outer_;  // of the same thread
 };
 
 struct ModuleBeingMade {
   std::string module;
-  double for_s = 0.0;  // by the wall clock
+  double for_s = 0.0;  // by the wall clock, since it began or another was made for it
   bool may_take_long = false;
 };
 

@@ -9,6 +9,8 @@
 namespace cairn {
 namespace {
 
+constexpr double kMaxImported_m = 1e9;  // of coordinates in graph files
+
 bool is_finite(const std::vector<TemplateDegree>& templates) {
   return std::ranges::all_of(templates, [](const TemplateDegree& fit) {
     return std::isfinite(fit.degree) && std::isfinite(fit.orientation_rad);
@@ -82,8 +84,9 @@ std::string fault_of(const GroundTruth& truth) {
 
 std::string fault_of(const PoseEstimate& pose, double max_m) {
   if (!cairn::is_finite(pose.T_map_robot) || !pose.covariance.allFinite()) return "returned a pose that is not finite";
-  const double out_m = pose.T_map_robot.position().norm();
-  if (out_m > max_m) return fmt::format("returned a pose {:g} m from the map's origin", out_m);
+  const double out_m = pose.T_map_robot.position().cwiseAbs().maxCoeff();
+  if (out_m > max_m)
+    return fmt::format("returned a pose {:g} m from the map's origin, {:g} m are allowed", out_m, max_m);
   return {};
 }
 
@@ -94,7 +97,9 @@ std::string fault_of(const MarkerSighting& sighting) {
   };
   if (is_wrong(sighting.pose) || (sighting.mirrored && is_wrong(*sighting.mirrored)))
     return "returned a marker whose pose is not finite or whose covariance is none";
-  const auto away_m = [](const MarkerPose& pose) { return pose.T_robot_marker.position().norm(); };
+  const auto away_m = [](const MarkerPose& pose) {
+    return std::hypot(pose.T_robot_marker.position().norm(), pose.height_m);
+  };
   const double furthest_m = std::max(away_m(sighting.pose), sighting.mirrored ? away_m(*sighting.mirrored) : 0.0);
   if (furthest_m > kMaxMarkerAway_m) return fmt::format("returned a marker {:g} m away", furthest_m);
   return {};
@@ -123,9 +128,12 @@ std::string fault_of(const Matching& matching, const OccupancyGrid& grid) {
 }
 
 std::string fault_of(const PlanResult& plan) {
-  const bool has_numbers = std::isfinite(plan.cost_m) && std::isfinite(plan.length_m) &&
-                           std::ranges::all_of(plan.path, [](const Pose2& pose) { return cairn::is_finite(pose); });
-  if (!has_numbers) return "returned a path that is not finite";
+  if (plan.outcome != PlanOutcome::solved && plan.path.empty()) return {};  // numbers of no path mean nothing
+  const auto is_place = [](const Pose2& pose) {
+    return cairn::is_finite(pose) && pose.position().cwiseAbs().maxCoeff() <= kMaxImported_m;
+  };
+  if (!std::isfinite(plan.cost_m) || !std::isfinite(plan.length_m) || !std::ranges::all_of(plan.path, is_place))
+    return fmt::format("returned a path that is not finite, or leads farther than {:g} m", kMaxImported_m);
   if (plan.cost_m < 0.0 || plan.length_m < 0.0) return "returned a path of less than no length or cost";
   return {};
 }

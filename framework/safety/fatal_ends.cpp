@@ -17,9 +17,9 @@ namespace {
 constexpr std::size_t kMaxMissions = 64;
 constexpr std::size_t kStackBytes = std::size_t{64} << 10U;
 constexpr int kExitOfFailure = 1;
-constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
-// End the process by default too; whoever has a use for one handles it.
-constexpr std::array kUnhandledSignals{SIGALRM, SIGTRAP, SIGSYS, SIGXCPU, SIGVTALRM, SIGPROF, SIGIO, SIGSTKFLT, SIGPWR};
+constexpr std::array kFatalSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGABRT, SIGQUIT};
+// End the process by default too. Profilers look whether theirs are free: SIGPROF and SIGVTALRM are left to them.
+constexpr std::array kUnhandledSignals{SIGALRM, SIGXCPU, SIGIO, SIGSTKFLT, SIGPWR};
 constexpr int kMaxLooksForStop = 30;
 constexpr timespec kBetweenLooks{0, 5'000'000};
 
@@ -27,6 +27,7 @@ constexpr timespec kBetweenLooks{0, 5'000'000};
 std::array<std::atomic<FatalEnds*>, kMaxMissions> missions;
 std::array<struct sigaction, kFatalSignals.size()> earlier;
 std::atomic<bool> is_end_expected{false};
+std::atomic<pid_t> our_process{0};
 static_assert(std::atomic<FatalEnds*>::is_always_lock_free && std::atomic<std::thread::id>::is_always_lock_free);
 
 // Where the process was ended.
@@ -64,10 +65,6 @@ const char* name_of_signal(int signal) {
       return "SIGSYS";
     case SIGXCPU:
       return "SIGXCPU";
-    case SIGVTALRM:
-      return "SIGVTALRM";
-    case SIGPROF:
-      return "SIGPROF";
     case SIGIO:
       return "SIGIO";
     case SIGSTKFLT:
@@ -149,6 +146,11 @@ struct FatalEndHandlers {
   [[noreturn]] static void end_early();
 
   static void on_exit() {
+    if (our_process != ::getpid()) return;  // a child that a module has forked
+    if (module_being_made_here() != nullptr) {
+      stop_all("exit() was called", Place::outside);
+      end_early();
+    }
     bool is_left_to_others = false;
     for (std::atomic<FatalEnds*>& slot : missions) {
       FatalEnds* const mission = slot;
@@ -190,12 +192,16 @@ void handle_fatal_ends() {
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
     ::sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < kFatalSignals.size(); ++i) ::sigaction(kFatalSignals[i], &action, &earlier[i]);
-    for (const int signal : kUnhandledSignals)
-      if (const auto before = ::signal(signal, FatalEndHandlers::on_unhandled); before != SIG_DFL)
-        ::signal(signal, before);
-    (void)std::atexit(FatalEndHandlers::on_exit);
+    for (const int signal : kUnhandledSignals) {
+      struct sigaction before {};
+      ::sigaction(signal, nullptr, &before);
+      if ((before.sa_flags & SA_SIGINFO) == 0 && before.sa_handler == SIG_DFL)
+        ::signal(signal, FatalEndHandlers::on_unhandled);
+    }
+    our_process = ::getpid();
     (void)std::at_quick_exit(FatalEndHandlers::on_exit);
   });
+  (void)std::atexit(FatalEndHandlers::on_exit);
 }
 
 FatalEnds::FatalEnds(CollisionMonitor& monitor, const StageClock& clock) : monitor_(monitor), clock_(clock) {

@@ -15,10 +15,10 @@
 
 namespace cairn {
 
-// For the program, once, before modules are loaded: installs handlers for SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and
-// SIGQUIT, which go on to what was installed before; for all other signals that end a process and that nobody handles;
-// and for exit() and quick_exit(), which end the process with status 1 and a line, whoever calls them, until
-// expect_end().
+// For the program: installs handlers for SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGABRT and SIGQUIT, which
+// go on to what was installed before; for SIGALRM, SIGXCPU, SIGIO, SIGSTKFLT and SIGPWR where nobody handles them; and
+// for exit() and quick_exit(), which end the process with status 1 and a line, whoever calls them, until expect_end().
+// When it is called again, what has been loaded since is torn down after the mission has been stopped.
 void handle_fatal_ends();
 // main() returns next.
 void expect_end();

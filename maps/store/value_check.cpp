@@ -285,13 +285,14 @@ class ValueCheck {
       const auto at = [&row](int column) { return row.real(column); };
       Eigen::Matrix3d information;
       information << at(1), at(2), at(3), at(2), at(4), at(5), at(3), at(5), at(6);
-      const double largest = information.diagonal().maxCoeff();
-      if (!information.allFinite() || !(largest > 0.0 && largest <= kMaxInformation)) continue;  // said already
+      const double largest = information.cwiseAbs().maxCoeff();
+      if (!information.allFinite() || largest > kMaxInformation || largest == 0.0) continue;  // found by the ranges
       const Eigen::Matrix3d scaled = information / largest;
       constexpr double kRounding = -1e-9;
       if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() <
           kRounding)
-        add("submap_edges", row.first_text(), "xy", "is with xt and yt no information: it is not positive definite");
+        add("submap_edges", row.first_text(), "xy",
+            "is with xt and yt no information: it is not positive semidefinite");
     }
   }
 

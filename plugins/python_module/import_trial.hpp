@@ -8,8 +8,9 @@
 
 namespace cairn::python_module {
 
-// Once a file in each process. What the file raises is no matter here. CAIRN_MODULE_TRIAL_S: so many seconds at most;
-// 10, for packages that take long to import. Throws ConfigError at that place.
+// Once a sound file in each process, by the interpreter that start_interpreter() starts; where Python runs already
+// (cairn.run) nothing is tried. What the file raises does not matter here. CAIRN_MODULE_TRIAL_S: so many seconds at
+// most; 10 otherwise, for packages that take long to import. Throws ConfigError at that place.
 void try_import(const std::string& file, const SourcePlace& place);
 
 }  // namespace cairn::python_module

@@ -67,14 +67,21 @@ class Configuration {
 // write past.
 void print_by_program() {
   pybind11::dict names;
-  names["write"] = pybind11::cpp_function([](const std::string& text) { std::cerr << text << std::flush; });
+  names["show"] = pybind11::cpp_function([](const pybind11::bytes& bytes) {
+    const std::string text = bytes;
+    const pybind11::gil_scoped_release others_run;
+    std::cerr << text << std::flush;
+  });
   pybind11::exec(R"(
 import io, sys
-class Printed(io.TextIOBase):
-    def write(self, text, write=write):
-        write(text)
-        return len(text)
-sys.stdout = sys.stderr = Printed()
+class StandardError(io.BufferedIOBase):
+    def __init__(self, show): self.show = show
+    def writable(self): return True
+    def fileno(self): return 2
+    def write(self, data):
+        self.show(bytes(data))
+        return len(data)
+sys.stdout = sys.stderr = io.TextIOWrapper(StandardError(show), "utf-8", "backslashreplace", write_through=True)
 )",
                  names);
 }

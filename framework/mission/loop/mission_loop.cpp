@@ -101,10 +101,10 @@ void MissionLoop::run() {
   }
   try {
     finish();
+    if (ending_.outcome == MissionOutcome::done && fatal_ends_.exit_was_called_elsewhere())
+      ending_ = {MissionOutcome::module_fault, kExitElsewhere};
   } catch (const GivenUp&) {
   }
-  if (ending_.outcome != MissionOutcome::module_fault && fatal_ends_.exit_was_called_elsewhere())
-    ending_ = {MissionOutcome::module_fault, kExitElsewhere};
 }
 
 MissionLoop::Ending MissionLoop::loop() {

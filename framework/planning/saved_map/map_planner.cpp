@@ -6,6 +6,7 @@
 
 #include "framework/files/robot_file.hpp"
 #include "framework/modules/fence.hpp"
+#include "framework/modules/plausibility.hpp"
 #include "framework/planning/clusters_config.hpp"
 #include "framework/planning/margins.hpp"
 #include "framework/planning/place.hpp"
@@ -146,7 +147,9 @@ PlanResult MapPlanner::plan_on(const OccupancyGrid& grid, std::uint64_t version,
   WorldView world = world_on(grid, version);
   if (on_hierarchy) world.hierarchies = &hierarchies_;
   if (cells_) world.cells = &*cells_;
-  return fenced("planner", options_.planner, [&] { return planner_->plan(request, world, budget); });
+  PlanResult plan = fenced("planner", options_.planner, [&] { return planner_->plan(request, world, budget); });
+  if (const std::string fault = fault_of(plan); !fault.empty()) throw ModuleFault("planner", options_.planner, fault);
+  return plan;
 }
 
 // What is made of the map meanwhile does not count, what was tried before does.

@@ -71,7 +71,7 @@ void BaseServer::read_client() {
   if (!is_there) lose_client();
 }
 
-// A client that is gone orders nothing more, and what it ordered last was not for this.
+// Without a client nobody sees where the robot goes.
 void BaseServer::lose_client() {
   client_ = Descriptor();
   robot_.stop();

@@ -12,7 +12,7 @@ namespace cairn {
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery(20);
-constexpr double kLongestAfterCancel_s = 2.0;
+constexpr double kMaxAfterCancel_s = 2.0;
 
 }  // namespace
 
@@ -26,10 +26,10 @@ void MakingWatch::watch(const std::stop_token& ended) const {
     if (limits_.is_cancelled && !cancelled) cancelled = now;
     const auto making = module_being_made();
     if (!making) continue;
-    if (cancelled && std::chrono::duration<double>(now - *cancelled).count() > kLongestAfterCancel_s)
+    if (cancelled && std::chrono::duration<double>(now - *cancelled).count() > kMaxAfterCancel_s)
       end_(fmt::format("module {} was still being made", making->module), true);
-    if (limits_.longest_s > 0.0 && !making->may_take_long && making->for_s > limits_.longest_s)
-      end_(fmt::format("module {} has not been made within {:g} s and was given up", making->module, limits_.longest_s),
+    if (limits_.max_s > 0.0 && !making->may_take_long && making->for_s > limits_.max_s)
+      end_(fmt::format("module {} has not been made within {:g} s and was given up", making->module, limits_.max_s),
            false);
   }
 }

@@ -11,7 +11,7 @@ namespace cairn {
 class MakingWatch {
  public:
   struct Limits {
-    double longest_s = 0.0;                 // of a module that is to be made at once; 0: none
+    double max_s = 0.0;                     // of a module that is to be made at once; 0: none
     const std::atomic<bool>& is_cancelled;  // by the user: whatever is being made gets 2 s more
   };
   // sentence: for people. It is called by another thread, and must not return: std::_Exit().

@@ -44,6 +44,7 @@ int PrintableBuffer::sync() {
 }
 
 bool PrintableBuffer::write(std::string_view text) {
+  const std::lock_guard lock(mutex_);
   std::string joined;
   if (!begun_.empty()) {
     joined = begun_.append(text);

@@ -2,6 +2,7 @@
 // process, a module.
 #pragma once
 
+#include <mutex>
 #include <ostream>
 #include <streambuf>
 #include <string>
@@ -28,6 +29,7 @@ class PrintableBuffer : public std::streambuf {
   bool write(std::string_view text);
 
   std::streambuf& target_;
+  std::mutex mutex_;   // modules print from threads of theirs
   std::string begun_;  // a UTF-8 character of which more may come
 };
 

@@ -61,6 +61,8 @@ std::vector<TreeBox> boxes_of(const std::vector<TreeNode>& nodes) {
   return boxes;
 }
 
+constexpr double kMaxMaking_s = 60.0;  // of a module
+
 std::string size_text(std::size_t steps, std::size_t nodes) {
   return counted(steps, "step") + ", " + counted(nodes, "node");
 }
@@ -69,8 +71,8 @@ std::string size_text(std::size_t steps, std::size_t nodes) {
 
 int mission_check(const MissionCheckCommand& command, const CommonOptions& common) {
   const std::atomic<bool> is_cancelled = false;  // signals end this command at once
-  const MakingWatch watch({MissionConfig{}.watchdog_s, is_cancelled}, [](const std::string& sentence, bool) {
-    std::cerr << sentence << "\n" << std::flush;
+  const MakingWatch watch({kMaxMaking_s, is_cancelled}, [](const std::string& sentence, bool) {
+    std::cerr << "cairn: " << sentence << "\n" << std::flush;
     std::_Exit(kExitBadInput);
   });
   const ModuleLibrary library = module_library(common);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -30,6 +31,7 @@
 #include "framework/program/run/viewer.hpp"
 #include "framework/reporting/report.hpp"
 #include "framework/reporting/watching/watch_source.hpp"
+#include "framework/safety/fatal_ends.hpp"
 #include "maps/base/text.hpp"
 #include "maps/exchange/pose_graphs/stamped_poses.hpp"
 #include "maps/landmarks/close_categories.hpp"
@@ -114,6 +116,8 @@ std::vector<RecordedOrder> orders_to_give(const RunCommand& command) {
   return read_orders(command.orders);
 }
 
+constexpr double kMinMaking_s = 10.0;  // a short watchdog_s is meant for calls, not for packages and nets
+
 // The mission was cancelled while its modules were made, as when a signal comes while a log is read.
 class CancelledEarly : public std::runtime_error {
  public:
@@ -139,7 +143,9 @@ void publish_cancelled(const Mission& mission, RunControl& control, const std::s
 
 MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
                         const RunCommand& command, const CommonOptions& common) {
-  const MakingWatch watch({mission.config.watchdog_s, *options.cancel}, [&](const std::string& sentence, bool by_user) {
+  const double watchdog_s = mission.config.watchdog_s;
+  const double max_making_s = watchdog_s > 0.0 ? std::max(watchdog_s, kMinMaking_s) : 0.0;
+  const MakingWatch watch({max_making_s, *options.cancel}, [&](const std::string& sentence, bool by_user) {
     if (by_user) publish_cancelled(mission, *options.control, sentence);
     if (!by_user) std::cerr << "cairn: " << sentence << "\n" << std::flush;
     const int status = by_user ? report_cancelled(common, sentence) : kExitBadInput;
@@ -274,6 +280,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   RunResults results(command, common, mission);
   const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
+  handle_fatal_ends();  // again: before what the modules have loaded
   make_folder(command.out);
   hold_folder(command.out);
   std::ostream& people = common.json ? std::cerr : std::cout;
@@ -299,14 +306,15 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   const bool is_reported = results.write(report, result, runner);
   if (mcap) finish(*mcap, command, result, runner.grid());
   results.print(report, result, runner);
+  const int status = result.outcome == MissionOutcome::done && is_reported ? kExitDone : kExitNotSolved;
   if (runner.gave_up()) {
     // The lost call still runs: nothing that it may use can be torn down.
     server.reset();
     std::cout.flush();
     std::cerr.flush();
-    std::_Exit(kExitNotSolved);
+    std::_Exit(status);
   }
-  return result.outcome == MissionOutcome::done && is_reported ? kExitDone : kExitNotSolved;
+  return status;
 }
 
 }  // namespace

@@ -128,9 +128,10 @@ TEST(Plausibility, APoseFarFromEveryMapIsAFault) {
   PoseEstimate pose;
   EXPECT_EQ(fault_of(pose), "");
   pose.T_map_robot.y_m = -2e5;
-  EXPECT_EQ(fault_of(pose), "returned a pose 200000 m from the map's origin");
+  EXPECT_EQ(fault_of(pose), "returned a pose 200000 m from the map's origin, 100000 m are allowed");
   pose.T_map_robot.y_m = 7e3;
-  EXPECT_EQ(fault_of(pose, 6.5e3), "returned a pose 7000 m from the map's origin") << "where no grid has cells";
+  EXPECT_EQ(fault_of(pose, 6.5e3), "returned a pose 7000 m from the map's origin, 6500 m are allowed")
+      << "where no grid has cells";
   pose = {};
   pose.covariance(2, 2) = kNan;
   EXPECT_EQ(fault_of(pose), "returned a pose that is not finite");
@@ -170,11 +171,20 @@ TEST(Plausibility, APathThatIsNoneIsAFault) {
   plan.path = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
   plan.cost_m = plan.length_m = 1.0;
   EXPECT_EQ(fault_of(plan), "");
+  plan.outcome = PlanOutcome::solved;
+  EXPECT_EQ(fault_of(plan), "");
   plan.path.back().theta_rad = kNan;
-  EXPECT_EQ(fault_of(plan), "returned a path that is not finite");
-  plan.path.clear();
+  EXPECT_EQ(fault_of(plan), "returned a path that is not finite, or leads farther than 1e+09 m");
+  plan.path.back() = {1e300, 0.0, 0.0};
+  EXPECT_NE(fault_of(plan), "");
+  plan.path.pop_back();
   plan.cost_m = -1.0;
   EXPECT_EQ(fault_of(plan), "returned a path of less than no length or cost");
+  plan.path.clear();
+  plan.cost_m = std::numeric_limits<double>::infinity();
+  EXPECT_NE(fault_of(plan), "");
+  plan.outcome = PlanOutcome::no_route;
+  EXPECT_EQ(fault_of(plan), "") << "there is none";
 }
 
 TEST(Plausibility, ATrueRobotIsSomewhere) {
