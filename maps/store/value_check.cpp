@@ -286,7 +286,9 @@ class ValueCheck {
       Eigen::Matrix3d information;
       information << at(1), at(2), at(3), at(2), at(4), at(5), at(3), at(5), at(6);
       const double largest = information.cwiseAbs().maxCoeff();
-      if (!information.allFinite() || largest > kMaxInformation || largest == 0.0) continue;  // found by the ranges
+      const bool is_in_ranges =
+          information.allFinite() && largest <= kMaxInformation && information.diagonal().minCoeff() >= 0.0;
+      if (!is_in_ranges || largest == 0.0) continue;
       const Eigen::Matrix3d scaled = information / largest;
       constexpr double kRounding = -1e-9;
       if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() <

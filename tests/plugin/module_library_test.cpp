@@ -115,7 +115,8 @@ TEST(ModuleLibrary, AnUnknownNameIsAnErrorWithPlaceAndNearestName) {
   const ModuleLibrary library({folder_of("faulty")});
   EXPECT_EQ(error_of(library, "stil_localizer"),
             "mission.yaml:7:3: unknown localizer plugin \"stil_localizer\" (did you mean \"still_localizer\"?); known "
-            "are: asking_localizer, nan_localizer, still_localizer, throwing_constructor");
+            "are: asking_localizer, crashing_constructor, exiting_constructor, hanging_constructor, nan_localizer, "
+            "still_localizer, throwing_constructor");
 }
 
 // A name is looked up, never opened: a mission that comes from elsewhere brings no code along.

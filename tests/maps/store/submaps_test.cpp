@@ -112,7 +112,8 @@ TEST_F(MapStore, EdgesOfThePoseGraphHaveAnInformation) {
     save_map(file(), map_with_submaps());
     run_sql(file(), "UPDATE submap_edges SET " + set + " WHERE to_node = 2");
     std::vector<std::string> all;
-    for (const ValueFinding& finding : check_values(file())) all.push_back(finding.column + " " + finding.what);
+    for (const ValueFinding& finding : check_values(file()))
+      if (finding.table == "submap_edges") all.push_back(finding.column + " " + finding.what);
     return all;
   };
   EXPECT_THAT(findings_with("xy = 10"), testing::IsEmpty());
