@@ -280,7 +280,7 @@ int parse_error_sentence(const CLI::App& app, const CLI::ParseError& error, int 
   return app.exit(error) == 0 ? kExitDone : kExitBadInput;
 }
 
-int main_of(int argc, char** argv) {
+int status_of(int argc, char** argv) try {
   CLI::App app{"Cairn: landmark navigation for mobile robots", "cairn"};
   app.set_version_flag("--version", "cairn " CAIRN_VERSION);
   app.require_subcommand(1);
@@ -303,17 +303,9 @@ int main_of(int argc, char** argv) {
   const int status = line.action();
   if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
   return status;
-}
-
-int status_of(int argc, char** argv) {
-  const PrintableStream out(std::cout);
-  const PrintableStream err(std::cerr);
-  try {
-    return main_of(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "cairn: " << error.what() << "\n";
-    return kExitBadInput;
-  }
+} catch (const std::exception& error) {
+  std::cerr << "cairn: " << error.what() << "\n";
+  return kExitBadInput;
 }
 
 }  // namespace
@@ -323,6 +315,8 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is reported like a full disk
   std::signal(SIGCHLD, SIG_DFL);  // whoever started this program may have ignored how children end
   if (argc == 3 && std::string_view(argv[1]) == cairn::kModuleTrialArgument) return cairn::run_module_trial(argv[2]);
+  const cairn::PrintableStream out(std::cout);
+  const cairn::PrintableStream err(std::cerr);
   cairn::handle_fatal_ends();
   const int status = cairn::status_of(argc, argv);
   cairn::expect_end();

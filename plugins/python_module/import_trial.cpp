@@ -8,9 +8,7 @@
 #include <set>
 #include <system_error>
 
-#include "framework/modules/making.hpp"
-#include "framework/modules/trial/child_process.hpp"
-#include "framework/modules/trial/child_trial.hpp"
+#include "maps/base/child_process.hpp"
 #include "maps/base/printable.hpp"
 #include "plugins/python_module/interpreter.hpp"
 
@@ -43,7 +41,7 @@ constexpr std::chrono::seconds kUsualLimit(10);
 constexpr std::size_t kMaxShown = 200;  // of what it printed
 
 std::string fault_of(const std::string& file) {
-  const std::chrono::milliseconds limit = trial_limit(kUsualLimit);
+  const std::chrono::milliseconds limit = limit_from("CAIRN_MODULE_TRIAL_S", kUsualLimit);
   try {
     const ChildEnd end = run_child({python_program(), "-X", "utf8", "-c", kScript, file}, limit);
     if (end.reported == "returned") return {};
@@ -67,7 +65,6 @@ void try_import(const std::string& file, const SourcePlace& place) {
   const std::string key = file + " " + std::to_string(changed);
   const std::lock_guard lock(mutex);
   if (sound.contains(key)) return;
-  const ModuleMaking trial(file, true);  // it has a limit of its own
   if (const std::string fault = fault_of(file); !fault.empty()) throw ConfigError(place, file + ": " + fault);
   sound.insert(key);
 }

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -14,8 +13,8 @@
 #include "framework/contracts/abi_stamp.hpp"
 #include "framework/modules/cache_folder.hpp"
 #include "framework/modules/trial/child_trial.hpp"
+#include "maps/base/child_process.hpp"
 #include "maps/base/fingerprint.hpp"
-#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -102,7 +101,9 @@ std::filesystem::path module_cache_folder() {
 }
 
 std::shared_ptr<const ModuleTrial> remembered_child_trial(const std::filesystem::path& program) {
-  return std::make_shared<CachedTrial>(std::make_unique<ChildTrial>(program, trial_limit()), module_cache_folder());
+  return std::make_shared<CachedTrial>(
+      std::make_unique<ChildTrial>(program, limit_from("CAIRN_MODULE_TRIAL_S", kModuleTrialLimit)),
+      module_cache_folder());
 }
 
 }  // namespace cairn

@@ -4,17 +4,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <exception>
 #include <string_view>
 #include <system_error>
 
 #include "framework/modules/plugin_loader.hpp"
-#include "framework/modules/trial/child_process.hpp"
+#include "maps/base/child_process.hpp"
 #include "maps/base/printable.hpp"
-#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -50,13 +47,6 @@ TrialOutcome outcome_of_end(const ChildEnd& end, std::chrono::milliseconds limit
 }
 
 }  // namespace
-
-std::chrono::milliseconds trial_limit(std::chrono::milliseconds usual) {
-  const char* const chosen = std::getenv("CAIRN_MODULE_TRIAL_S");
-  const auto limit_s = number_from<double>(chosen == nullptr ? "" : chosen);
-  if (!limit_s || !(*limit_s >= 0.1 && *limit_s <= 3600.0)) return usual;
-  return std::chrono::milliseconds(std::llround(1e3 * *limit_s));
-}
 
 TrialOutcome ChildTrial::outcome_of(const std::filesystem::path& file) const {
   try {

@@ -12,9 +12,6 @@ namespace cairn {
 inline constexpr std::chrono::milliseconds kModuleTrialLimit{5000};  // wall clock, from start to end of the child
 inline constexpr const char* kModuleTrialArgument = "--try-module";  // the first of two; the other is the file
 
-// What the environment says by CAIRN_MODULE_TRIAL_S, or the usual.
-[[nodiscard]] std::chrono::milliseconds trial_limit(std::chrono::milliseconds usual = kModuleTrialLimit);
-
 class ChildTrial : public ModuleTrial {
  public:
   // The program must call run_module_trial() when it is started with kModuleTrialArgument.

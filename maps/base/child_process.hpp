@@ -17,6 +17,9 @@ struct ChildEnd {
   std::string reported;  // all that it wrote to kReportFd, to a limit of 1 MiB
 };
 
+// What an environment variable says, in seconds from 0.1 to 3600, or the usual.
+[[nodiscard]] std::chrono::milliseconds limit_from(const char* variable, std::chrono::milliseconds usual);
+
 // How it ended, for people: "crashed (SIGSEGV)", "called exit(3)", "did not finish within 5 s".
 [[nodiscard]] std::string end_text(const ChildEnd& end, std::chrono::milliseconds limit);
 

@@ -1,4 +1,4 @@
-#include "framework/modules/trial/child_process.hpp"
+#include "maps/base/child_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "framework/modules/trial/child_process.hpp"
+#include "maps/base/child_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -9,10 +9,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <utility>
+
+#include "maps/base/text.hpp"
 
 namespace cairn {
 namespace {
@@ -168,6 +172,13 @@ std::string end_text(const ChildEnd& end, std::chrono::milliseconds limit) {
   if (end.has_timed_out) return "did not finish within " + std::to_string(limit.count()) + " ms";
   if (end.signal != 0) return "crashed (" + name_of_signal(end.signal) + ")";
   return "called exit(" + std::to_string(end.exit_status) + ")";
+}
+
+std::chrono::milliseconds limit_from(const char* variable, std::chrono::milliseconds usual) {
+  const char* const chosen = std::getenv(variable);
+  const auto limit_s = number_from<double>(chosen == nullptr ? "" : chosen);
+  if (!limit_s || !(*limit_s >= 0.1 && *limit_s <= 3600.0)) return usual;
+  return std::chrono::milliseconds(std::llround(1e3 * *limit_s));
 }
 
 }  // namespace cairn
