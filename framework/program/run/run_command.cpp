@@ -268,6 +268,14 @@ MissionResult run_with_listeners(const RunCommand& command, const Mission& missi
   return result;
 }
 
+// A thread that was left behind still runs: nothing that it may use can be torn down.
+[[noreturn]] void end_at_once(int status, std::unique_ptr<ControlServer>& server) {
+  server.reset();
+  std::cout.flush();
+  std::cerr.flush();
+  std::_Exit(status);
+}
+
 int run_mission(const RunCommand& command, const CommonOptions& common) {
   ControlFlags& flags = flags_of_signals();
   std::optional<std::int64_t> seed = command.seed;
@@ -307,13 +315,7 @@ int run_mission(const RunCommand& command, const CommonOptions& common) {
   if (mcap) finish(*mcap, command, result, runner.grid());
   results.print(report, result, runner);
   const int status = result.outcome == MissionOutcome::done && is_reported ? kExitDone : kExitNotSolved;
-  if (runner.gave_up()) {
-    // The lost call still runs: nothing that it may use can be torn down.
-    server.reset();
-    std::cout.flush();
-    std::cerr.flush();
-    std::_Exit(status);
-  }
+  if (runner.gave_up()) end_at_once(status, server);
   return status;
 }
 
