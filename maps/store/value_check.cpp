@@ -134,17 +134,21 @@ constexpr std::array kProperties{
     PropertyRange{"robot_radius_m", 0.0, 10.0},
 };
 
-struct NameColumn {
-  const char* table;
-  const char* column;
-};
-constexpr std::array kNames{
-    NameColumn{"landmarks", "name"},         NameColumn{"landmarks", "category"},
-    NameColumn{"retired_landmarks", "name"}, NameColumn{"retired_landmarks", "category"},
-    NameColumn{"candidates", "name"},        NameColumn{"candidates", "category"},
-    NameColumn{"clusters", "name"},          NameColumn{"shapes", "category"},
-    NameColumn{"progress", "step_name"},
-};
+// Table and column.
+using Name = std::pair<const char*, const char*>;
+constexpr std::array kNames{Name{"landmarks", "name"},
+                            Name{"landmarks", "category"},
+                            Name{"retired_landmarks", "name"},
+                            Name{"retired_landmarks", "category"},
+                            Name{"candidates", "name"},
+                            Name{"candidates", "category"},
+                            Name{"landmark_templates", "category"},
+                            Name{"landmark_evidence", "category"},
+                            Name{"candidate_templates", "category"},
+                            Name{"candidate_evidence", "category"},
+                            Name{"clusters", "name"},
+                            Name{"shapes", "category"},
+                            Name{"progress", "step_name"}};
 
 class ValueCheck {
  public:
@@ -159,7 +163,7 @@ class ValueCheck {
       for (const ColumnRange& range : kTemplateRanges) check(whose + "_templates", range);
       for (const ColumnRange& range : kEvidenceRanges) check(whose + "_evidence", range);
     }
-    for (const NameColumn& name : kNames) attempt([&] { check_names(name); });
+    for (const auto& [table, column] : kNames) check_names(table, column);
     attempt([&] { check_trajectories(); });
     attempt([&] { check_shapes(); });
     for (const PropertyRange& range : kProperties) attempt([&] { check_property(range); });
@@ -196,13 +200,19 @@ class ValueCheck {
     return {from + range.min, from + range.max};
   }
 
+  // The first column; empty: no such table.
+  std::string key_of(const std::string& table) {
+    Statement key(database_, "SELECT name FROM pragma_table_info('" + table + "') ORDER BY cid LIMIT 1");
+    return key.step() ? key.text(0) : "";
+  }
+
   void check(const std::string& table, const ColumnRange& range) {
     attempt([&] {
       const auto [min, max] = limits_of(range);
       const std::string column = range.column;
-      Statement key(database_, "SELECT name FROM pragma_table_info('" + table + "') ORDER BY cid LIMIT 1");
-      if (!key.step()) return;
-      Statement row(database_, "SELECT " + key.text(0) + ", substr(CAST(" + column + " AS TEXT), 1, 40) FROM " + table +
+      const std::string key = key_of(table);
+      if (key.empty()) return;
+      Statement row(database_, "SELECT " + key + ", substr(CAST(" + column + " AS TEXT), 1, 40) FROM " + table +
                                    " WHERE " + column + " IS NOT NULL AND NOT (" + column + " BETWEEN ? AND ?) LIMIT " +
                                    std::to_string(kMaxFindings));
       row.bind(min).bind(max);
@@ -216,14 +226,15 @@ class ValueCheck {
     return exchange::number_text(min) + " to " + exchange::number_text(max);
   }
 
-  void check_names(const NameColumn& name) {
-    const std::string column = name.column;
-    Statement row(database_, "SELECT rowid, " + column + " FROM " + name.table);
-    while (row.step()) {
-      const std::string text = row.text(1);
-      if (const std::size_t found = first_unprintable(text); found != std::string::npos)
-        add(name.table, row.first_text(), column, "holds " + name_of_unprintable(text, found));
-    }
+  void check_names(const std::string& table, const std::string& column) {
+    attempt([&] {
+      Statement row(database_, "SELECT " + key_of(table) + ", " + column + " FROM " + table);
+      while (row.step()) {
+        const std::string text = row.text(1);
+        if (const std::size_t found = first_unprintable(text); found != std::string::npos)
+          add(table, row.first_text(), column, "holds " + name_of_unprintable(text, found));
+      }
+    });
   }
 
   [[nodiscard]] bool is_far(const Pose2& pose) const {
