@@ -116,7 +116,7 @@ TEST_F(ValueCheck, NamesHoldNoControlCharacters) {
   EXPECT_THAT(findings_after("UPDATE landmarks SET name = 'a' || char(10) || 'b' WHERE id = 1"),
               ElementsAre("landmarks 1 name holds the control character \\x0a"));
   EXPECT_THAT(
-      findings_after("UPDATE landmark_evidence SET category = 'a' || char(9) WHERE landmark = 1"),
+      findings_after("UPDATE candidate_evidence SET category = 'a' || char(9)"),
       testing::AllOf(testing::Not(IsEmpty()), testing::Each(EndsWith(" category holds the control character \\x09"))));
 }
 
