@@ -11,6 +11,8 @@
 namespace cairn::exchange {
 namespace {
 
+constexpr std::size_t kMaxPlainKey = 1000;  // bytes; some readers count a little more than the key
+
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -47,6 +49,17 @@ std::string yaml_text(std::string_view text) {
     quoted += c;
   }
   return quoted + '"';
+}
+
+std::string yaml_flow_key(std::string_view text) {
+  const std::string key = yaml_text(text);
+  return key.size() <= kMaxPlainKey ? key + ":" : "? " + key + " :";
+}
+
+std::string yaml_block_key(std::string_view text, std::string_view indent) {
+  const std::string key = yaml_text(text);
+  if (key.size() <= kMaxPlainKey) return std::string(indent) + key + ":";
+  return fmt::format("{0}? {1}\n{0}:", indent, key);
 }
 
 }  // namespace cairn::exchange

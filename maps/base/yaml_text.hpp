@@ -10,5 +10,9 @@ namespace cairn::exchange {
 [[nodiscard]] std::string yaml_number(double value);
 // In double quotes with escapes unless it is a plain name that no reader takes for anything else.
 [[nodiscard]] std::string yaml_text(std::string_view text);
+// The same as the key of a mapping, with its colon: in one line with others (flow style), or at the beginning of a line
+// behind that indent. Keys of more than 1024 characters have to be marked as such (YAML 1.2, 7.4.3 and 8.2.2).
+[[nodiscard]] std::string yaml_flow_key(std::string_view text);
+[[nodiscard]] std::string yaml_block_key(std::string_view text, std::string_view indent = "");
 
 }  // namespace cairn::exchange

@@ -30,7 +30,7 @@ std::string yaml_of(const Json& value) {
   std::string text;
   for (const auto& [key, item] : value.items()) {
     if (!text.empty()) text += ", ";
-    if (value.is_object()) text += exchange::yaml_text(key) + ": ";
+    if (value.is_object()) text += exchange::yaml_flow_key(key) + " ";
     text += yaml_of(item);
   }
   return value.is_object() ? "{" + text + "}" : "[" + text + "]";
@@ -51,14 +51,15 @@ class RmfWriter {
     for (const auto& [number, level] : levels_) {
       std::string level_name = name_of(number, level);
       while (!names.insert(level_name).second) level_name += "_" + std::to_string(number);
-      text += "  " + exchange::yaml_text(level_name) + ":\n";
+      text += exchange::yaml_block_key(level_name, "  ") + "\n";
       text += level.lanes.empty() ? "    lanes: []\n" : "    lanes:\n" + level.lanes;
       text += "    vertices:\n" + level.vertices;
     }
     for (const char* key : {"doors", "lifts"})
       if (!site_.contains(key)) site_[key] = Json::object();
     for (const auto& [key, value] : site_.items())
-      if (key != "building_name" && key != "levels") text += exchange::yaml_text(key) + ": " + yaml_of(value) + "\n";
+      if (key != "building_name" && key != "levels")
+        text += exchange::yaml_block_key(key) + " " + yaml_of(value) + "\n";
     warn();
     return std::move(exported_);
   }

@@ -133,6 +133,11 @@ TEST(YamlText, NumbersHaveNoExponentAndTextsAreNoOtherThing) {
   EXPECT_EQ(exchange::yaml_text("1e5"), "\"1e5\"");
   EXPECT_EQ(exchange::yaml_text("a\"\\\n"), "\"a\\\"\\\\\\x0A\"");
   EXPECT_EQ(exchange::yaml_text(""), "\"\"");
+  EXPECT_EQ(exchange::yaml_flow_key("a"), "a:");
+  EXPECT_EQ(exchange::yaml_block_key("a", "  "), "  a:");
+  const std::string tabs(300, '\t');  // 1200 characters once they are escaped
+  EXPECT_EQ(exchange::yaml_flow_key(tabs), "? " + exchange::yaml_text(tabs) + " :");
+  EXPECT_EQ(exchange::yaml_block_key(tabs, "  "), "  ? " + exchange::yaml_text(tabs) + "\n  :");
 }
 
 }  // namespace
