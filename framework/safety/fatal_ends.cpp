@@ -169,7 +169,7 @@ struct FatalEndHandlers {
   }
 };
 
-// Not in a mission, and not in a signal handler.
+// Of exit() outside of every mission, not in a signal handler.
 [[noreturn]] void FatalEndHandlers::end_early() {
   if (!report_making("exit() was called")) print("cairn: exit() was called by a module or a library\n");
   ::_exit(kExitOfFailure);

@@ -49,7 +49,7 @@ std::string fault_of(const std::string& file) {
     if (!end.printed.empty()) fault += "; it printed \"" + printable_excerpt(end.printed, kMaxShown) + "\"";
     return fault;
   } catch (const std::system_error&) {
-    return {};  // the interpreter of this process may be another one
+    return {};  // the program cannot be started: nothing is known of the file
   }
 }
 

@@ -4,10 +4,10 @@
     python3 tests/bench/stop_table.py build/release [CASE ...]
 
 Each case starts a simulated base as a process of its own, in wall-clock time, and the program that drives it straight
-on at 0.3 m/s (CAIRN_STOP_ROBOT and CAIRN_STOP_MPS: another of config/robots, and speed). A module (tests/plugin/failing.cpp) or this script makes the fault; the base's log shows what was ordered
-of the wheels and how they turned. CAIRN_STOP_MISSION holds further settings of the mission, to compare them. Needs the
-targets cairn, simulated_robot, remote_base, odometry_compass, muriel,
-failing.
+on at 0.3 m/s. CAIRN_STOP_ROBOT and CAIRN_STOP_MPS: another robot of config/robots, and its speed. A module
+(tests/plugin/failing.cpp) or this script makes the fault; the base's log shows what was ordered of the wheels and how
+they turned. CAIRN_STOP_MISSION holds further settings of the mission, to compare them. Needs the targets cairn,
+simulated_robot, remote_base, odometry_compass, muriel, failing.
 """
 import json
 import os

@@ -53,14 +53,20 @@ TEST(ObservationCheck, AClockThatLeapsIsAFault) {
   EXPECT_NE(second_after(at(10.0, 0.0), at(1e9, 0.0)), "");
 }
 
-// The same of a robot that is driven at 0.5 m/s and 1 rad/s at most; here_s passes meanwhile.
-std::string second_live(const Observation& first, const Observation& second, double here_s = 0.04) {
+// Of a robot that is driven at 0.5 m/s and 1 rad/s at most.
+ObservationCheck live_check(std::shared_ptr<const WallClock> clock) {
   RobotModel robot;
   robot.max_v_mps = 0.5;
   robot.max_w_radps = 1.0;
-  const auto clock = std::make_shared<TestClock>();
-  ObservationCheck check(robot, clock);
+  ObservationCheck check(robot, std::move(clock));
   check.expect_live();
+  return check;
+}
+
+// Of the second of two observations; here_s passes meanwhile.
+std::string second_live(const Observation& first, const Observation& second, double here_s = 0.04) {
+  const auto clock = std::make_shared<TestClock>();
+  ObservationCheck check = live_check(clock);
   EXPECT_EQ(check.fault_of(first), "");
   clock->advance(std::chrono::nanoseconds(std::llround(1e9 * here_s)));
   return check.fault_of(second);
@@ -79,12 +85,8 @@ TEST(LiveObservationCheck, AnOdometryThatLeapsIsAFault) {
 
 // At how many steps of 0.04 s the fault is found; 100: at none.
 int step_of_fault(double x_m_a_step, double turn_rad_a_step) {
-  RobotModel robot;
-  robot.max_v_mps = 0.5;
-  robot.max_w_radps = 1.0;
   const auto clock = std::make_shared<TestClock>();
-  ObservationCheck check(robot, clock);
-  check.expect_live();
+  ObservationCheck check = live_check(clock);
   for (int step = 0; step < 100; ++step) {
     Observation observation = at(10.0 + 0.04 * step, x_m_a_step * step);
     observation.T_odom_robot.theta_rad = wrap_angle(turn_rad_a_step * step);
