@@ -28,4 +28,10 @@ class MakingWatch {
   std::jthread thread_;  // last: it uses all of the above
 };
 
+inline constexpr double kMaxMaking_s = 60.0;  // of a module, for a command that sees to many missions
+// What a mission's watchdog_s leaves for the making of a module: as much, and 10 s at least; of 0: no limit, as 0.
+[[nodiscard]] double max_making_s(double watchdog_s);
+// For a command that has no report to write: it ends with one line and status 2; cancelled, with status 1.
+[[nodiscard]] MakingWatch watch_making(double max_s, const std::atomic<bool>& is_cancelled);
+
 }  // namespace cairn

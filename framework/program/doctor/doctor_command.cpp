@@ -7,6 +7,7 @@
 #include "framework/mission/modules.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
+#include "framework/program/common/making_watch.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/print.hpp"
 #include "framework/program/doctor/live_check.hpp"
@@ -54,6 +55,7 @@ int doctor_live(const DoctorLiveCommand& command, const CommonOptions& common) {
   const std::atomic<bool>& end = cancel_on_interrupt();
   const Mission mission = load_mission(command.mission, command.overrides, std::nullopt);
   const ModuleLibrary library = module_library(common);
+  const MakingWatch watch = watch_making(max_making_s(mission.config.watchdog_s), end);
   const std::shared_ptr<Sensor> sensor = build_sensor(mission, library);
   LiveCheck check(mission.robot, blind_s_of(mission), mission.config.collision_monitor.stop_after_s);
   check.watch(*sensor, command.for_s, end);

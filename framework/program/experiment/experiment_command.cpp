@@ -15,6 +15,7 @@
 #include "framework/experiments/trials/table.hpp"
 #include "framework/program/common/commands.hpp"
 #include "framework/program/common/interrupt.hpp"
+#include "framework/program/common/making_watch.hpp"
 #include "framework/program/common/modules.hpp"
 #include "framework/program/common/output_files.hpp"
 #include "framework/program/common/refusal.hpp"
@@ -155,8 +156,9 @@ int experiment(const ExperimentCommand& command, const CommonOptions& common) {
     filter = runs_of(ranked.emplace(command.out, *rank), config, command.out, fingerprint);
   }
   const ModuleLibrary library = module_library(common);
-  const std::vector<ExperimentRow> rows =
-      run_experiment(config, library, command.out, cancel_on_interrupt(), progress(rank), filter);
+  const std::atomic<bool>& cancel = cancel_on_interrupt();
+  const MakingWatch watch = watch_making(kMaxMaking_s, cancel);
+  const std::vector<ExperimentRow> rows = run_experiment(config, library, command.out, cancel, progress(rank), filter);
   const auto finish = [&] {
     if (shard) return report_shard(*shard, rows);
     if (!ranked) return write_results(command, common, config, rows);

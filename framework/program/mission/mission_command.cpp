@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -61,8 +60,6 @@ std::vector<TreeBox> boxes_of(const std::vector<TreeNode>& nodes) {
   return boxes;
 }
 
-constexpr double kMaxMaking_s = 60.0;  // of a module
-
 std::string size_text(std::size_t steps, std::size_t nodes) {
   return counted(steps, "step") + ", " + counted(nodes, "node");
 }
@@ -71,10 +68,7 @@ std::string size_text(std::size_t steps, std::size_t nodes) {
 
 int mission_check(const MissionCheckCommand& command, const CommonOptions& common) {
   const std::atomic<bool> is_cancelled = false;  // signals end this command at once
-  const MakingWatch watch({kMaxMaking_s, is_cancelled}, [](const std::string& sentence, bool) {
-    std::cerr << "cairn: " << sentence << "\n" << std::flush;
-    std::_Exit(kExitBadInput);
-  });
+  const MakingWatch watch = watch_making(kMaxMaking_s, is_cancelled);
   const ModuleLibrary library = module_library(common);
   for (const std::string& fault : library.faults()) std::cerr << "not loaded: " << fault << "\n";
   ordered_json rows = ordered_json::array();

@@ -116,8 +116,6 @@ std::vector<RecordedOrder> orders_to_give(const RunCommand& command) {
   return read_orders(command.orders);
 }
 
-constexpr double kMinMaking_s = 10.0;  // a short watchdog_s is meant for calls, not for packages and nets
-
 // The mission was cancelled while its modules were made, as when a signal comes while a log is read.
 class CancelledEarly : public std::runtime_error {
  public:
@@ -143,9 +141,8 @@ void publish_cancelled(const Mission& mission, RunControl& control, const std::s
 
 MissionRunner runner_of(const Mission& mission, const ModuleLibrary& library, const RunOptions& options,
                         const RunCommand& command, const CommonOptions& common) {
-  const double watchdog_s = mission.config.watchdog_s;
-  const double max_making_s = watchdog_s > 0.0 ? std::max(watchdog_s, kMinMaking_s) : 0.0;
-  const MakingWatch watch({max_making_s, *options.cancel}, [&](const std::string& sentence, bool by_user) {
+  const double max_s = max_making_s(mission.config.watchdog_s);
+  const MakingWatch watch({max_s, *options.cancel}, [&](const std::string& sentence, bool by_user) {
     if (by_user) publish_cancelled(mission, *options.control, sentence);
     if (!by_user) std::cerr << "cairn: " << sentence << "\n" << std::flush;
     const int status = by_user ? report_cancelled(common, sentence) : kExitBadInput;
