@@ -121,6 +121,7 @@ Bag BagReader::read(const Budget& budget) {
     }
   };
   handlers.damaged = [&](std::uint64_t offset, const std::string& what) { bad(offset, what); };
+  handlers.look = [&] { log_common::check_budget(budget, config_.file.string()); };
   try {
     const auto ending = read_mcap([&](char* to, std::size_t count) { return bytes.read(to, count); }, handlers);
     if (!bytes.damage().empty()) scans_.bad_line(ConfigError({config_.file.string(), 0, 0}, bytes.damage()));

@@ -46,15 +46,18 @@ struct Lz4 {
 };
 
 template <class Decompressor>
-std::string unpacked_by(const Decompressor& decompressor, std::string_view packed, std::uint64_t size) {
+std::string unpacked_by(const Decompressor& decompressor, std::string_view packed, std::uint64_t size,
+                        const std::function<void()>& look) {
   std::string bytes;
   std::size_t filled = 0;
   while (true) {
     // One byte more than there should be shows that there is more.
     if (bytes.size() < filled + kStep) bytes.resize(std::min<std::uint64_t>(size + 1, std::max(2 * filled, kStep)));
     const std::size_t before = packed.size();
-    const std::size_t written = decompressor.step(packed, bytes.data() + filled, bytes.size() - filled);
+    const std::size_t written =
+        decompressor.step(packed, bytes.data() + filled, std::min(kStep, bytes.size() - filled));
     filled += written;
+    if (look) look();
     if (filled > size) break;
     if (written == 0 && packed.size() == before) break;
   }
@@ -67,9 +70,10 @@ std::string unpacked_by(const Decompressor& decompressor, std::string_view packe
 
 }  // namespace
 
-std::string unpacked(std::string_view compression, std::string_view packed, std::uint64_t size) {
-  if (compression == "zstd") return unpacked_by(Zstd{}, packed, size);
-  if (compression == "lz4") return unpacked_by(Lz4{}, packed, size);
+std::string unpacked(std::string_view compression, std::string_view packed, std::uint64_t size,
+                     const std::function<void()>& look) {
+  if (compression == "zstd") return unpacked_by(Zstd{}, packed, size, look);
+  if (compression == "lz4") return unpacked_by(Lz4{}, packed, size, look);
   if (!compression.empty())
     throw McapDamage("a chunk compressed by \"" + std::string(compression.substr(0, 32)) +
                      "\"; none, lz4 and zstd can be read");

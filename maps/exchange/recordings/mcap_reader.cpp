@@ -129,11 +129,15 @@ void Reader::take_chunk(McapFields fields) {
   const std::string_view packed = fields.take(fields.u64());
   if (size > kMaxRecord)
     throw McapDamage("a chunk that unpacks to " + std::to_string(size) + " bytes; those up to 1 GiB can be read");
-  const std::string records = unpacked(compression, packed, size);
+  const std::string records = unpacked(compression, packed, size, handlers_.look);
   check_crc(crc, crc32_of(records), "a chunk");
+  std::size_t looked = 0;
   for (McapFields inside(records); !inside.is_at_end();) {
     const auto kind = static_cast<McapRecord>(inside.u8());
     take_in_chunk(kind, McapFields(inside.take(inside.u64())));
+    if (!handlers_.look || inside.before().size() - looked < kReadStep) continue;
+    looked = inside.before().size();
+    handlers_.look();
   }
 }
 

@@ -49,6 +49,7 @@ struct McapHandlers {
   std::function<void(const McapMessage&)> message;
   std::function<void(const McapAttachment&)> attachment;
   std::function<void(std::uint64_t offset, const std::string& what)> damaged;  // a record that is left out
+  std::function<void()> look;  // once for each MiB that a chunk unpacks to, and for each that is read out of it
 };
 
 enum class McapEnding {

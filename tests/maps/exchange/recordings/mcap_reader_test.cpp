@@ -185,6 +185,35 @@ TEST(McapCompressionTest, UnpacksLz4) {
   }
 }
 
+TEST(McapCompressionTest, LooksUpOnceForEachMiB) {
+  const std::string text(10'000'000, 'a');
+  int looks = 0;
+  EXPECT_EQ(unpacked("lz4", lz4_frame(text), text.size(), [&] { ++looks; }), text);
+  EXPECT_GE(looks, 10);
+}
+
+TEST(McapReaderTest, WhoLooksUpMayEndALargeChunk) {
+  std::string file;
+  McapOptions options;
+  options.chunk_bytes = 100'000'000;
+  McapWriter writer([&](std::string_view bytes) { file += bytes; }, options);
+  const auto a = writer.add_channel("/a", writer.add_schema("A", "ros2msg", "int32 x"), "cdr");
+  for (std::uint64_t i = 0; i < 20; ++i) writer.write(a, i, std::string(1'000'000, 'a'));
+  writer.close();
+  struct Ended {};
+  for (const int read_before : {0, 1}) {  // 0: while it is unpacked
+    int messages = 0;
+    McapHandlers handlers;
+    handlers.message = [&](const McapMessage&) { ++messages; };
+    handlers.look = [&] {
+      if (messages >= read_before) throw Ended{};
+    };
+    EXPECT_THROW((void)read_mcap(file, handlers), Ended);
+    EXPECT_GE(messages, read_before);
+    EXPECT_LE(messages, 3 * read_before);
+  }
+}
+
 TEST(McapCompressionTest, SaysWhatIsWrong) {
   EXPECT_EQ(unpacked("", "abc", 3), "abc");
   EXPECT_THAT(refusal_of("", "abc", 4), HasSubstr("4 bytes, but there are 3"));
