@@ -20,11 +20,10 @@ for file in bin/cairn lib/libcairn_*.so lib/cairn/*.so python/cairn/_native*.so;
   readelf -lW "$file" | grep GNU_STACK | grep -q ' RWE ' && fault "$file" "the stack is executable"
 done
 readelf -hW bin/cairn | grep -qE 'Type:.*DYN' || fault bin/cairn "has a fixed address (no PIE)"
-for file in bin/cairn lib/libcairn_framework.so lib/libcairn_maps.so; do
+for file in bin/cairn lib/libcairn_*.so lib/cairn/*.so python/cairn/_native*.so; do
   nm -D "$file" | grep -q __stack_chk_fail || fault "$file" "has no stack protector"
+  nm -D "$file" | grep -qE ' U __[a-z]+_chk' || fault "$file" "no call is fortified"
 done
-nm -D lib/libcairn_framework.so lib/libcairn_maps.so lib/cairn/*.so | grep -qE ' U __[a-z]+_chk' ||
-  fault "libraries" "no call is fortified"
 
 # What another file can see of it: of a module its one function and its stamp, of Python's module its function, of the
 # program nothing, of a library what is Cairn's own.
