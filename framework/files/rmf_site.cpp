@@ -34,8 +34,10 @@ std::string json_of_scalar(const ConfigValue& value) {
   const std::string& text = value.scalar;
   if (value.quoted) return json_text(text);
   if (text == "true" || text == "false") return text;
-  if (const auto whole = number_from<std::int64_t>(text)) return std::to_string(*whole);
-  if (const auto real = number_from<double>(text); real && std::isfinite(*real)) return exchange::yaml_number(*real);
+  std::string_view token = text;
+  if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
+  if (const auto whole = number_from<std::int64_t>(token)) return std::to_string(*whole);
+  if (const auto real = number_from<double>(token); real && std::isfinite(*real)) return exchange::yaml_number(*real);
   return json_text(text);
 }
 
