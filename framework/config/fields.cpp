@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "maps/base/text.hpp"
+#include "maps/base/yaml_text.hpp"
 
 namespace cairn {
 namespace {
@@ -51,9 +52,7 @@ std::string allowed_text(const std::string& noun, const Range& range, const std:
 template <class Number>
 std::optional<Number> parsed(const ConfigValue& value) {
   if (value.kind != ConfigValue::Kind::scalar || value.quoted) return std::nullopt;
-  std::string_view token = value.scalar;
-  if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
-  const auto number = number_from<Number>(token);
+  const auto number = number_from<Number>(exchange::without_plus_sign(value.scalar));
   if constexpr (std::is_floating_point_v<Number>) {
     if (number && !std::isfinite(*number)) return std::nullopt;
   }

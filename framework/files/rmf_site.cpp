@@ -34,10 +34,9 @@ std::string json_of_scalar(const ConfigValue& value) {
   const std::string& text = value.scalar;
   if (value.quoted) return json_text(text);
   if (text == "true" || text == "false") return text;
-  std::string_view token = text;
-  if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
-  if (const auto whole = number_from<std::int64_t>(token)) return std::to_string(*whole);
-  if (const auto real = number_from<double>(token); real && std::isfinite(*real)) return exchange::yaml_number(*real);
+  const std::string_view number = exchange::without_plus_sign(text);
+  if (const auto whole = number_from<std::int64_t>(number)) return std::to_string(*whole);
+  if (const auto real = number_from<double>(number); real && std::isfinite(*real)) return exchange::yaml_number(*real);
   return json_text(text);
 }
 

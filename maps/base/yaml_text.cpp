@@ -36,6 +36,11 @@ std::string yaml_number(double value) {
   return text;
 }
 
+std::string_view without_plus_sign(std::string_view number) {
+  if (number.starts_with('+') && !number.starts_with("+-")) number.remove_prefix(1);
+  return number;
+}
+
 std::string yaml_text(std::string_view text) {
   if (is_plain(text)) return std::string(text);
   std::string quoted = "\"";

@@ -107,6 +107,13 @@ lifts: {lift1: {position: [1, 2, 0.5], dims: [2.0, 3]}}
   EXPECT_EQ(again.properties, once.properties);
 }
 
+TEST(RmfNavGraph, NumbersWithAPlusSignGoOutAsNumbers) {
+  const ImportedGraph once = read(changed(kNav, "speed_limit: 0.0", "speed_limit: +.0, seats: +4, sign: +-4"));
+  const std::string written = rmf_nav_graph_of(once.graph, once.properties.at("rmf")).text;
+  EXPECT_THAT(written, HasSubstr("{speed_limit: 0.0, seats: 4, sign: \"+-4\"}"));
+  EXPECT_EQ(read(written).graph, once.graph);
+}
+
 TEST(RmfNavGraph, ReportsWhatItCannotHold) {
   LandmarkGraph graph;
   for (int i = 0; i < 3; ++i) {

@@ -124,6 +124,12 @@ TEST(MapServerWrite, TheYamlHasMapServersOrderAndAllDigits) {
                   .starts_with("image: \"a b: c.png\"\nmode: scale\n"));
 }
 
+TEST(YamlText, APlusSignBelongsToANumber) {
+  EXPECT_EQ(exchange::without_plus_sign("+.5"), ".5");
+  EXPECT_EQ(exchange::without_plus_sign("-5"), "-5");
+  EXPECT_EQ(exchange::without_plus_sign("+-5"), "+-5") << "no number";
+}
+
 TEST(YamlText, NumbersHaveNoExponentAndTextsAreNoOtherThing) {
   EXPECT_EQ(exchange::yaml_number(1e-7), "0.0000001");
   EXPECT_EQ(exchange::yaml_number(3e5), "300000.0");
