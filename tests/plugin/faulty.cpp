@@ -1,6 +1,7 @@
 // Modules that fail in every way that a mission must survive, and a small sensor that works.
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <future>
 #include <limits>
@@ -262,13 +263,17 @@ std::unique_ptr<Localizer> crash_while_made() {
   return nullptr;
 }
 
-std::unique_ptr<Localizer> hang_while_made() {
+template <class Interface>
+std::unique_ptr<Interface> hang_while_made() {
+  std::puts("hangs while it is made");
+  std::fflush(stdout);
   for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
-template <std::unique_ptr<Localizer> (*make)()>
-void add_unmakable(Registrar& registrar, const char* name) {
-  registrar.add<Localizer, NoConfig>(name, "for tests", [](const NoConfig&, const ModuleContext&) { return make(); });
+template <class Interface>
+void add_unmakable(Registrar& registrar, const char* name, std::unique_ptr<Interface> (*make)()) {
+  registrar.add<Interface, NoConfig>(name, "for tests",
+                                     [make](const NoConfig&, const ModuleContext&) { return make(); });
 }
 
 void exit_elsewhere() {
@@ -347,9 +352,10 @@ void register_module(Registrar& registrar) {
   add_ending<exit_elsewhere>(registrar, "exit_elsewhere");
   add_ending<exit_quickly>(registrar, "exit_quickly");
   add_ending<alarm>(registrar, "alarm");
-  add_unmakable<exit_while_made>(registrar, "exiting_constructor");
-  add_unmakable<crash_while_made>(registrar, "crashing_constructor");
-  add_unmakable<hang_while_made>(registrar, "hanging_constructor");
+  add_unmakable(registrar, "exiting_constructor", exit_while_made);
+  add_unmakable(registrar, "crashing_constructor", crash_while_made);
+  add_unmakable(registrar, "hanging_constructor", hang_while_made<Localizer>);
+  add_unmakable(registrar, "hanging_sensor", hang_while_made<Sensor>);
   add_ending<overflow_the_stack>(registrar, "overflow");
   registrar.add<Localizer, NoConfig>("throwing_constructor", "for tests",
                                      [](const NoConfig&, const ModuleContext&) -> std::unique_ptr<Localizer> {

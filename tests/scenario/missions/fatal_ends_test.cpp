@@ -5,6 +5,8 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/scenario/program.hpp"
 
@@ -19,12 +21,14 @@ class FatalEnds : public testing::Test {
   FatalEnds() { std::filesystem::create_directories(folder_); }
   ~FatalEnds() override { std::filesystem::remove_all(folder_); }
 
-  void write_mission(const std::string& step, const std::string& localizer) const {
-    std::ofstream(folder_ / "mission.yaml") << "mission: fatal\nrobot: " << CAIRN_SOURCE_DIR
-                                            << "/config/robots/pioneer1.yaml\n"
-                                               "sensor: {plugin: counting_sensor, readings: 1000}\n"
-                                               "map: {plugin: empty_map}\nwatchdog_s: 1\nlocalizer: {plugin: "
-                                            << localizer << "}\nsteps: [" << step << "]\n";
+  void write_mission(const std::string& step, const std::string& localizer,
+                     const std::string& sensor = "counting_sensor, readings: 1000") const {
+    std::ofstream(folder_ / "mission.yaml")
+        << "mission: fatal\nrobot: " << CAIRN_SOURCE_DIR
+        << "/config/robots/pioneer1.yaml\n"
+           "sensor: {plugin: "
+        << sensor << "}\nmap: {plugin: empty_map}\nwatchdog_s: 1\nlocalizer: {plugin: " << localizer << "}\nsteps: ["
+        << step << "]\n";
   }
   [[nodiscard]] Finished run(const std::string& step, const std::string& localizer = "still_localizer",
                              const std::vector<std::string>& command = {"run"}) const {
@@ -97,6 +101,23 @@ TEST_F(FatalEnds, AModuleThatIsNeverMadeDoesNotKeepTheUserFromEndingTheProgram) 
   EXPECT_EQ(finished.exit_status, 1);
   EXPECT_THAT(finished.out, HasSubstr("cancelled by the user before the mission began: module hanging_constructor was "
                                       "still being made"));
+}
+
+TEST_F(FatalEnds, NorFromEndingTheOtherCommandsThatMakeModules) {
+  std::ofstream(folder_ / "experiment.yaml") << "experiment: missions\nmissions: [mission.yaml]\nseeds: {count: 2}\n";
+  const auto expect_ended = [&](const std::string& module, std::vector<std::string> words) {
+    words.insert(words.end(), {"--plugins", std::string(CAIRN_BINARY_DIR) + "/tests/plugin/faulty"});
+    const Finished finished = cairn::testing_program::interrupt_cairn(words);
+    EXPECT_EQ(finished.exit_status, 1) << words.front();
+    EXPECT_EQ(finished.err, "cairn: module " + module + " was still being made\n") << words.front();
+  };
+  const std::string mission = (folder_ / "mission.yaml").string();
+  write_mission("endless", "hanging_constructor");
+  expect_ended("hanging_constructor",
+               {"experiment", (folder_ / "experiment.yaml").string(), "--out", folder_.string()});
+  write_mission("endless", "still_localizer", "hanging_sensor");
+  expect_ended("hanging_sensor", {"base", mission, "--listen", (folder_ / "base.sock").string()});
+  expect_ended("hanging_sensor", {"doctor", "live", mission});
 }
 
 TEST_F(FatalEnds, AModuleThatCallsExitInAThreadOfItsOwnEndsTheMissionAsAFaultToo) {
